@@ -1,0 +1,69 @@
+#include "app/command_line.h"
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace meander {
+namespace {
+
+// A validator of one number by a predicate.
+CLI::Validator number_check(const std::string& wanted, const std::function<bool(double)>& good) {
+  return CLI::Validator(
+      [wanted, good](const std::string& text) -> std::string {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && good(value)) return {};
+        return "is '" + text + "', but must be " + wanted;
+      },
+      "");
+}
+
+std::string number_text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+// The parser's message in one line, with the way to the help.
+std::string one_line(const CLI::App& app, const std::string& message) {
+  std::string text;
+  for (const char c : message) text += c == '\n' ? ' ' : c;
+  std::string verb;
+  for (const CLI::App* used : app.get_subcommands()) verb = " " + used->get_name();
+  return text + " (see: meander" + verb + " --help)";
+}
+
+}  // namespace
+
+CLI::Validator at_least(double low) {
+  return number_check("a number, " + number_text(low) + " or more", [low](double v) { return v >= low; });
+}
+CLI::Validator greater_than(double low) {
+  return number_check("a number greater than " + number_text(low), [low](double v) { return v > low; });
+}
+CLI::Validator finite_number() {
+  return number_check("a finite number", [](double) { return true; });
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("meander: random walks in translucent materials, seen at once", "meander");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", MEANDER_VERSION);
+  Action action;
+  add_render_command(app, action);
+  add_capture_command(app, action);
+  add_measure_command(app, action);
+  add_compare_command(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success, std::cout, std::cerr);
+  } catch (const CLI::ParseError& error) {
+    throw Error(Fault::input, one_line(app, error.what()));
+  }
+  return action();
+}
+
+}  // namespace meander

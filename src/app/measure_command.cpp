@@ -1,0 +1,199 @@
+// The verb measure.
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "app/command_line.h"
+#include "app/interrupt.h"
+#include "app/measure_report.h"
+#include "core/error.h"
+#include "render/parallel.h"
+
+namespace meander {
+namespace {
+
+// As typed; ranges are still text.
+struct MeasureOptions {
+  std::string shape;
+  std::string albedo;
+  std::string g = "0";
+  std::string tau;
+  std::string tau_radius;
+  std::optional<double> sigma_a;
+  std::optional<double> sigma_s;
+  std::optional<double> thickness;
+  std::optional<double> color;
+  std::string inversion = "exact";
+  std::string boundary = "matched";
+  std::string incidence = "normal";
+  std::string estimator = "implicit";
+  std::uint64_t walks = 1'000'000;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  bool json = false;
+};
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(Fault::input, "measure: " + message); }
+
+double parse_number(const std::string& option, const std::string& text) {
+  double value = 0;
+  if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value))
+    refuse(option + " is '" + text + "', but must be a number, or a range FIRST:LAST:COUNT");
+  return value;
+}
+
+// One number, or FIRST:LAST:COUNT evenly spaced.
+std::vector<double> parse_range(const std::string& option, const std::string& text) {
+  const auto parts = CLI::detail::split(text, ':');
+  if (parts.size() == 1) return {parse_number(option, text)};
+  if (parts.size() != 3) refuse(option + " is '" + text + "', but must be a number, or a range FIRST:LAST:COUNT");
+  const double first = parse_number(option, parts[0]);
+  const double last = parse_number(option, parts[1]);
+  const double count = parse_number(option, parts[2]);
+  if (count < 2 || count > 10000 || count != std::floor(count))
+    refuse(option + ": a range has 2 to 10000 values, not " + parts[2]);
+  std::vector<double> values;
+  for (int i = 0; i < static_cast<int>(count); ++i) values.push_back(first + (last - first) * i / (count - 1));
+  return values;
+}
+
+void require_in(const std::string& option, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  std::ostringstream text;
+  text << option << " is " << value << ", but must be in [" << low << ", " << high << "]";
+  refuse(text.str());
+}
+
+Incidence parse_incidence(const std::string& text) {
+  if (text == "normal") return {false, 1};
+  if (text == "diffuse") return {true, 1};
+  const std::string prefix = "cosine=";
+  double cosine = 0;
+  if (text.starts_with(prefix) && CLI::detail::lexical_cast(text.substr(prefix.size()), cosine) && cosine > 0 && cosine <= 1)
+    return {false, cosine};
+  refuse("--incidence is '" + text + "', but must be normal, diffuse, or cosine=MU with MU in (0, 1]");
+}
+
+// The albedos asked for, whichever way they were given.
+std::vector<double> albedos_of(const MeasureOptions& o, double g) {
+  const int given = !o.albedo.empty() + (o.sigma_a.has_value() || o.sigma_s.has_value()) + o.color.has_value();
+  if (given > 1) refuse("give the medium by --albedo, by --sigma-s with --sigma-a, or by --color, not by two of them");
+  if (o.color) {
+    require_in("--color", *o.color, 0, 1);
+    const Inversion inversion = o.inversion == "chiang"          ? Inversion::chiang
+                                : o.inversion == "van_de_hulst" ? Inversion::van_de_hulst
+                                                                : Inversion::exact;
+    return {double{medium_from_color(DVec3(*o.color), DVec3(1), g, inversion).albedo.x}};
+  }
+  if (o.sigma_a || o.sigma_s) {
+    const double sigma_t = o.sigma_a.value_or(0) + o.sigma_s.value_or(0);
+    if (!(sigma_t > 0)) refuse("--sigma-a and --sigma-s must not both be 0");
+    return {o.sigma_s.value_or(0) / sigma_t};
+  }
+  return parse_range("--albedo", o.albedo.empty() ? "0.9" : o.albedo);
+}
+
+using Shape = decltype(MeasureJob::shape);
+
+std::vector<Shape> shapes_of(const MeasureOptions& o) {
+  if (o.shape != "slab" && (!o.tau.empty() || o.thickness)) refuse("--tau and --thickness are for the slab");
+  if (o.shape != "sphere" && !o.tau_radius.empty()) refuse("--tau-radius is for the sphere");
+  if (o.shape == "halfspace") return {MeasuredHalfSpace{}};
+  std::vector<Shape> shapes;
+  if (o.shape == "sphere") {
+    for (const double tau : parse_range("--tau-radius", o.tau_radius.empty() ? "1" : o.tau_radius)) {
+      if (!(tau > 0)) refuse("--tau-radius must be greater than 0");
+      shapes.emplace_back(MeasuredSphere{tau});
+    }
+    return shapes;
+  }
+  if (o.thickness) {
+    if (!o.tau.empty()) refuse("give the slab by --tau or by --thickness, not by both");
+    if (!o.sigma_a && !o.sigma_s) refuse("--thickness needs --sigma-a and --sigma-s");
+    return {MeasuredSlab{*o.thickness * (o.sigma_a.value_or(0) + o.sigma_s.value_or(0))}};
+  }
+  for (const double tau : parse_range("--tau", o.tau.empty() ? "1" : o.tau)) {
+    if (!(tau > 0)) refuse("--tau must be greater than 0");
+    shapes.emplace_back(MeasuredSlab{tau});
+  }
+  return shapes;
+}
+
+// Every combination of the ranges.
+std::vector<MeasureJob> jobs_of(const MeasureOptions& o) {
+  MeasureJob job;
+  job.boundary = o.boundary == "diffuse" ? Boundary::diffuse : Boundary::matched;
+  job.incidence = parse_incidence(o.incidence);
+  job.estimator = o.estimator == "analog" ? Estimator::analog : Estimator::implicit;
+  job.walks = o.walks;
+  job.seed = o.seed;
+  job.threads = o.threads > 0 ? o.threads : hardware_threads();
+  std::vector<MeasureJob> jobs;
+  for (const Shape& shape : shapes_of(o)) {
+    for (const double g : parse_range("--g", o.g)) {
+      if (!(std::abs(g) < 1)) refuse("--g must be greater than -1 and less than 1");
+      for (const double albedo : albedos_of(o, g)) {
+        require_in("--albedo", albedo, 0, 1);
+        if (std::holds_alternative<MeasuredHalfSpace>(shape) && albedo > 1 - 1e-6)
+          refuse("the mean path in a half-space is not finite for an albedo above 1 - 1e-6");
+        job.shape = shape;
+        job.g = g;
+        job.albedo = albedo;
+        jobs.push_back(job);
+      }
+    }
+  }
+  return jobs;
+}
+
+int run_measure(const MeasureOptions& options) {
+  const std::vector<MeasureJob> jobs = jobs_of(options);
+  const std::atomic<bool>& stop = watch_interrupts();
+  std::vector<MeasuredCase> cases;
+  for (const MeasureJob& job : jobs) {
+    cases.push_back({job, measure(job, stop)});
+    if (stop) std::cerr << "meander: interrupted after " << cases.back().result.walks << " walks\n";
+    if (stop && cases.back().result.walks == 0) cases.pop_back();
+    if (stop) break;
+  }
+  if (cases.empty()) throw Error(Fault::runtime, "interrupted before any walks were complete");
+  if (options.json)
+    std::cout << measurement_json(cases, jobs.size() > 1);
+  else
+    std::cout << (jobs.size() > 1 ? measurement_csv(cases) : measurement_text(cases.front()));
+  return 0;
+}
+
+}  // namespace
+
+void add_measure_command(CLI::App& app, Action& action) {
+  CLI::App* verb = app.add_subcommand(
+      "measure", "reflectance, transmittance and absorption of an exact shape, with standard errors");
+  const auto o = std::make_shared<MeasureOptions>();
+  verb->add_option("SHAPE", o->shape, "slab, halfspace or sphere")
+      ->required()
+      ->check(CLI::IsMember({"slab", "halfspace", "sphere"}));
+  verb->add_option("--albedo", o->albedo, "single-scattering albedo (0.9), or a range FIRST:LAST:COUNT");
+  verb->add_option("--g", o->g, "Henyey-Greenstein mean cosine (0), or a range");
+  verb->add_option("--tau", o->tau, "slab: optical thickness (1), or a range");
+  verb->add_option("--tau-radius", o->tau_radius, "sphere: optical radius (1), or a range");
+  verb->add_option("--sigma-a,--mu-a", o->sigma_a, "absorption coefficient, per mm")->check(at_least(0));
+  verb->add_option("--sigma-s,--mu-s", o->sigma_s, "scattering coefficient, per mm")->check(at_least(0));
+  verb->add_option("--thickness", o->thickness, "slab: thickness, mm")->check(greater_than(0));
+  verb->add_option("--color", o->color, "surface colour instead of an albedo")->check(finite_number());
+  verb->add_option("--inversion", o->inversion, "of the colour: exact, chiang or van_de_hulst (exact)")
+      ->check(CLI::IsMember({"exact", "chiang", "van_de_hulst"}));
+  verb->add_option("--boundary", o->boundary, "matched or diffuse (matched)")
+      ->check(CLI::IsMember({"matched", "diffuse"}));
+  verb->add_option("--incidence", o->incidence, "normal, cosine=MU or diffuse (normal)");
+  verb->add_option("--estimator", o->estimator, "analog or implicit (implicit)")
+      ->check(CLI::IsMember({"analog", "implicit"}));
+  verb->add_option("--walks", o->walks, "number of walks (10^6)")->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 50));
+  verb->add_option("--seed", o->seed, "random seed (0)");
+  verb->add_option("--threads", o->threads, "threads (all)")->check(CLI::Range(1, 1024));
+  verb->add_flag("--json", o->json, "print JSON");
+  verb->callback([o, &action] { action = [o] { return run_measure(*o); }; });
+}
+
+}  // namespace meander

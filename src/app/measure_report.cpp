@@ -1,0 +1,90 @@
+#include "app/measure_report.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace meander {
+namespace {
+
+struct Quantity {
+  const char* name;
+  const Moments* moments;
+};
+
+// The quantities that the shape has, in the order in which they are reported.
+std::vector<Quantity> quantities_of(const MeasuredCase& m) {
+  const Measurement& r = m.result;
+  std::vector<Quantity> quantities{{"reflectance", &r.reflectance}};
+  const bool sphere = std::holds_alternative<MeasuredSphere>(m.job.shape);
+  if (sphere) quantities.push_back({"escaped", &r.reflectance});
+  quantities.insert(quantities.end(), {{"transmittance", &r.transmittance},
+                                       {"unscattered_reflectance", &r.unscattered_reflectance},
+                                       {"unscattered_transmittance", &r.unscattered_transmittance},
+                                       {"specular_reflectance", &r.specular_reflectance},
+                                       {"absorptance", &r.absorptance},
+                                       {"mean_path_length", &r.mean_path_length}});
+  return quantities;
+}
+
+double size_of(const MeasureJob& job) {
+  if (const auto* slab = std::get_if<MeasuredSlab>(&job.shape)) return slab->tau;
+  if (const auto* sphere = std::get_if<MeasuredSphere>(&job.shape)) return sphere->tau_radius;
+  return std::numeric_limits<double>::infinity();
+}
+
+std::string exact(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+}  // namespace
+
+std::string measurement_text(const MeasuredCase& measured) {
+  std::string text;
+  char line[160];
+  for (const Quantity& q : quantities_of(measured)) {
+    std::snprintf(line, sizeof line, "%-26s %.7f +- %.7f\n", q.name, q.moments->mean, q.moments->standard_error());
+    text += line;
+  }
+  const Measurement& r = measured.result;
+  std::snprintf(line, sizeof line, "%llu walks, %llu steps, %.2f s\n", static_cast<unsigned long long>(r.walks),
+                static_cast<unsigned long long>(r.steps), r.seconds);
+  return text + line;
+}
+
+std::string measurement_json(const std::vector<MeasuredCase>& cases, bool list) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const MeasuredCase& measured : cases) {
+    nlohmann::ordered_json one;
+    if (list) {
+      one["albedo"] = measured.job.albedo;
+      one["g"] = measured.job.g;
+      if (std::isfinite(size_of(measured.job))) one["tau"] = size_of(measured.job);
+    }
+    for (const Quantity& q : quantities_of(measured))
+      one[q.name] = {{"value", q.moments->mean}, {"standard_error", q.moments->standard_error()}};
+    one["walks"] = measured.result.walks;
+    one["steps"] = measured.result.steps;
+    one["seconds"] = measured.result.seconds;
+    all.push_back(std::move(one));
+  }
+  return (list ? all : all.front()).dump(2) + "\n";
+}
+
+std::string measurement_csv(const std::vector<MeasuredCase>& cases) {
+  std::ostringstream text;
+  text << "albedo,g,tau";
+  for (const Quantity& q : quantities_of(cases.front())) text << ',' << q.name << ',' << q.name << "_standard_error";
+  text << ",walks,steps,seconds\n";
+  for (const MeasuredCase& m : cases) {
+    text << exact(m.job.albedo) << ',' << exact(m.job.g) << ',' << exact(size_of(m.job));
+    for (const Quantity& q : quantities_of(m)) text << ',' << exact(q.moments->mean) << ',' << exact(q.moments->standard_error());
+    text << ',' << m.result.walks << ',' << m.result.steps << ',' << exact(m.result.seconds) << '\n';
+  }
+  return text.str();
+}
+
+}  // namespace meander

@@ -1,0 +1,115 @@
+#include "app/render_options.h"
+
+#include <cstdio>
+#include <iostream>
+
+#include "app/command_line.h"
+#include "app/interrupt.h"
+#include "app/progress.h"
+#include "app/run_stats.h"
+#include "core/error.h"
+#include "io/output_file.h"
+#include "io/scene_file.h"
+#include "render/parallel.h"
+
+namespace meander {
+namespace {
+
+Budget budget_of(const RenderOptions& options) {
+  Budget budget{options.spp, options.seconds, options.error};
+  if (!budget.spp && !budget.seconds && !budget.error) budget.spp = 64;
+  return budget;
+}
+
+std::optional<Tile> crop_of(const RenderOptions& options, const FilmSize& film) {
+  if (options.crop.empty()) return std::nullopt;
+  const Tile crop{options.crop[0], options.crop[1], options.crop[2], options.crop[3]};
+  const bool inside = 0 <= crop.x0 && crop.x0 < crop.x1 && crop.x1 <= film.width && 0 <= crop.y0 &&
+                      crop.y0 < crop.y1 && crop.y1 <= film.height;
+  if (inside) return crop;
+  throw Error(Fault::input, "--crop must be X0,Y0,X1,Y1 with 0 <= X0 < X1 <= " + std::to_string(film.width) +
+                                " and 0 <= Y0 < Y1 <= " + std::to_string(film.height));
+}
+
+Job make_job(const RenderOptions& options, Scene scene) {
+  if (options.width) scene.film.width = *options.width;
+  if (options.height) scene.film.height = *options.height;
+  Job job;
+  job.threads = options.threads > 0 ? options.threads : hardware_threads();
+  job.crop = crop_of(options, scene.film);
+  job.seed = options.seed;
+  job.first_sample = options.first_sample;
+  job.estimator = options.estimator == "analog" ? Estimator::analog : Estimator::implicit;
+  job.scene = std::make_shared<const Scene>(std::move(scene));
+  job.geometry = std::make_shared<const Geometry>(*job.scene, job.threads);
+  return job;
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& verb, RenderOptions& o) {
+  verb.add_option("SCENE", o.scene, "scene file (.toml), or a bare mesh (.ply .obj .glb .stl)")->required();
+  verb.add_option("-o,--output", o.output, "image file to write")->required();
+  verb.add_option("--spp", o.spp, "samples a pixel (64 when neither --time nor --error is given)")
+      ->check(at_least(1))
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
+  verb.add_option("--time", o.seconds, "seconds to render for")->check(greater_than(0));
+  verb.add_option("--error,--noise", o.error, "relative noise to reach, such as 0.01")->check(greater_than(0));
+  verb.add_option("--seed", o.seed, "random seed (0)");
+  verb.add_option("--first-sample", o.first_sample, "number of the first sample (0)");
+  verb.add_option("--threads", o.threads, "threads (all)")->check(CLI::Range(1, 1024));
+  verb.add_option("--width", o.width, "film width, pixels")->check(CLI::Range(1, 16384));
+  verb.add_option("--height", o.height, "film height, pixels")->check(CLI::Range(1, 16384));
+  verb.add_option("--crop", o.crop, "X0,Y0,X1,Y1: render this rectangle of the film only")->delimiter(',')->expected(4);
+  verb.add_option("--estimator", o.estimator, "analog or implicit (implicit)")
+      ->check(CLI::IsMember({"analog", "implicit"}));
+  verb.add_option("--set", o.edits, "PATH=VALUE: any scene value, such as material.wax.g=0.4 (repeatable)")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb.add_option("--stats", o.stats, "file for statistics (.json)");
+  verb.add_flag("--quiet", o.quiet, "say nothing but errors");
+}
+
+FinishedRun run_render(const RenderOptions& options, std::span<const std::string_view> extensions) {
+  constexpr std::string_view kJson[] = {".json"};
+  check_writable(options.output, extensions);
+  if (!options.stats.empty()) check_writable(options.stats, kJson);
+  SceneFile file = load_scene(options.scene, options.edits);
+  if (!options.quiet)
+    for (const std::string& warning : file.warnings) std::cerr << "meander: warning: " << warning << '\n';
+  FinishedRun run;
+  run.job = make_job(options, std::move(file.scene));
+  const std::atomic<bool>& stop = watch_interrupts();
+  const Budget budget = budget_of(options);
+  ProgressReport progress(budget, options.quiet);
+  run.rendering = render(run.job, budget, stop, [&](const Rendering& rendering) { progress.show(rendering); });
+  progress.finish();
+  run.interrupted = stop;
+  if (run.rendering.spp == 0)
+    throw Error(Fault::runtime, "interrupted before the first pass was complete; nothing was written");
+  return run;
+}
+
+void print_summary(const RenderOptions& options, const FinishedRun& run) {
+  const Rendering& r = run.rendering;
+  if (!options.stats.empty()) {
+    const std::string json = stats_json(run.job, r);
+    write_file(options.stats, std::as_bytes(std::span(json)));
+  }
+  if (options.quiet) return;
+  if (run.interrupted)
+    std::fprintf(stderr, "meander: interrupted; wrote what was complete, %llu samples a pixel\n",
+                 static_cast<unsigned long long>(r.spp));
+  std::fprintf(stderr, "%s: %llu spp in %.2f s, noise %.2f %%, %.3g steps/s\n", options.output.c_str(),
+               static_cast<unsigned long long>(r.spp), r.seconds, 100 * r.noise,
+               static_cast<double>(r.counters.steps) / r.seconds);
+  if (r.counters.leaked_walks > 0)
+    std::fprintf(stderr, "meander: warning: %llu of %llu walks leaked through holes in a mesh\n",
+                 static_cast<unsigned long long>(r.counters.leaked_walks),
+                 static_cast<unsigned long long>(r.counters.walks));
+  if (r.non_finite > 0)
+    std::fprintf(stderr, "meander: warning: %llu samples were not finite and count as black\n",
+                 static_cast<unsigned long long>(r.non_finite));
+}
+
+}  // namespace meander

@@ -1,0 +1,50 @@
+// The options that render and capture share, and the run that they describe.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/progressive.h"
+
+namespace meander {
+
+struct RenderOptions {
+  std::string scene;
+  std::string output;
+  std::vector<std::string> edits;
+  std::optional<std::uint64_t> spp;
+  std::optional<double> seconds;
+  std::optional<double> error;
+  std::uint64_t seed = 0;
+  std::uint32_t first_sample = 0;
+  int threads = 0;  // 0: all
+  std::optional<int> width;
+  std::optional<int> height;
+  std::vector<int> crop;
+  std::string estimator = "implicit";
+  std::string stats;
+  bool quiet = false;
+};
+
+/// Declares the options on a verb; `options` must outlive the parse.
+void add_render_options(CLI::App& verb, RenderOptions& options);
+
+struct FinishedRun {
+  Job job;
+  Rendering rendering;
+  bool interrupted = false;
+};
+
+/// Checks the outputs, loads the scene, renders with progress, and writes --stats. `extensions` are those that the
+/// output may have. Errors: Error(input) for anything wrong with the options or the scene; Error(runtime) when it was
+/// interrupted before the first pass was complete.
+[[nodiscard]] FinishedRun run_render(const RenderOptions& options, std::span<const std::string_view> extensions);
+
+/// The closing line of a run: what was written, and what it reached.
+void print_summary(const RenderOptions& options, const FinishedRun& run);
+
+}  // namespace meander

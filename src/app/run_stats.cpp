@@ -1,0 +1,63 @@
+#include "app/run_stats.h"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace meander {
+namespace {
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+// JSON has no infinity: what is not finite is null.
+nlohmann::ordered_json finite(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace
+
+std::string version_text() { return MEANDER_VERSION; }
+
+std::string stats_json(const Job& job, const Rendering& rendering) {
+  const PathCounters& counters = rendering.counters;
+  nlohmann::ordered_json stats;
+  stats["version"] = version_text();
+  stats["scene"] = job.scene->name;
+  stats["seed"] = job.seed;
+  stats["first_sample"] = job.first_sample;
+  stats["threads"] = job.threads;
+  stats["isa"] = "baseline";
+  stats["width"] = rendering.film.width;
+  stats["height"] = rendering.film.height;
+  stats["spp"] = rendering.spp;
+  stats["seconds"] = rendering.seconds;
+  stats["walks"] = counters.walks;
+  stats["steps"] = counters.steps;
+  stats["rays"] = counters.rays;
+  stats["walks_per_second"] = finite(static_cast<double>(counters.walks) / rendering.seconds);
+  stats["steps_per_second"] = finite(static_cast<double>(counters.steps) / rendering.seconds);
+  stats["mean"] = mean_of(rendering.film);
+  stats["relative_noise"] = finite(rendering.noise);
+  stats["leaked_walks"] = counters.leaked_walks;
+  stats["non_finite"] = rendering.non_finite;
+  stats["peak_memory_bytes"] = peak_memory_bytes();
+  stats["model"] = describe_model(*job.scene);
+  stats["estimator"] = job.estimator == Estimator::analog ? "analog" : "implicit";
+  return stats.dump(2) + "\n";
+}
+
+ImageAttributes image_attributes(const Job& job, const Rendering& rendering) {
+  ImageAttributes attributes;
+  attributes.text = {{"meander/scene", job.scene->name}, {"meander/version", version_text()}};
+  attributes.integers = {{"meander/spp", static_cast<std::int64_t>(rendering.spp)},
+                         {"meander/seed", static_cast<std::int64_t>(job.seed)},
+                         {"meander/first_sample", job.first_sample}};
+  return attributes;
+}
+
+}  // namespace meander

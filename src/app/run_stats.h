@@ -1,0 +1,19 @@
+// What a run says of itself: the keys of --stats, and the attributes that its images carry.
+#pragma once
+
+#include <string>
+
+#include "io/image_file.h"
+#include "render/progressive.h"
+
+namespace meander {
+
+[[nodiscard]] std::string version_text();
+
+/// The JSON text of --stats, keys as the command line's contract lists them.
+[[nodiscard]] std::string stats_json(const Job& job, const Rendering& rendering);
+
+/// scene, seed, spp, first sample and version.
+[[nodiscard]] ImageAttributes image_attributes(const Job& job, const Rendering& rendering);
+
+}  // namespace meander

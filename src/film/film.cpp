@@ -1,0 +1,62 @@
+#include "film/film.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace meander {
+
+void Pixel::add(const Rgb& value) noexcept {
+  ++count;
+  for (int c = 0; c < 3; ++c) {
+    const double x = static_cast<double>(value[c]);
+    const double before = x - mean[c];
+    mean[c] += before / static_cast<double>(count);
+    m2[c] += before * (x - mean[c]);
+  }
+}
+
+std::array<double, 3> Pixel::variance_of_mean() const noexcept {
+  if (count < 2) return {};
+  const double n = static_cast<double>(count);
+  return {m2[0] / (n - 1) / n, m2[1] / (n - 1) / n, m2[2] / (n - 1) / n};
+}
+
+Image resolve(const Film& film) {
+  Image image(film.width, film.height, 6);
+  float* out = image.values.data();
+  for (const Pixel& pixel : film.pixels) {
+    const std::array<double, 3> variance = pixel.variance_of_mean();
+    for (const double m : pixel.mean) *out++ = static_cast<float>(m);
+    for (const double v : variance) *out++ = static_cast<float>(v);
+  }
+  return image;
+}
+
+double relative_noise(const Film& film, const std::vector<std::uint8_t>& mask) {
+  assert(mask.empty() || mask.size() == film.pixels.size());
+  const bool every = std::all_of(mask.begin(), mask.end(), [](std::uint8_t m) { return m == 0; });
+  double sum = 0;
+  std::uint64_t terms = 0;
+  for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+    if (!every && mask[i] == 0) continue;
+    const Pixel& pixel = film.pixels[i];
+    if (pixel.count < 2) return std::numeric_limits<double>::infinity();
+    const std::array<double, 3> variance = pixel.variance_of_mean();
+    for (int c = 0; c < 3; ++c) sum += variance[c] / (pixel.mean[c] * pixel.mean[c] + 1e-4);
+    terms += 3;
+  }
+  return terms == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(terms));
+}
+
+std::array<double, 3> mean_of(const Film& film) {
+  std::array<double, 3> sum{};
+  for (const Pixel& pixel : film.pixels) {
+    for (int c = 0; c < 3; ++c) sum[c] += pixel.mean[c];
+  }
+  const double n = std::max(1.0, static_cast<double>(film.pixels.size()));
+  return {sum[0] / n, sum[1] / n, sum[2] / n};
+}
+
+}  // namespace meander

@@ -1,0 +1,49 @@
+// Accumulators: each pixel a running mean, a second moment and a weight, so that every image has an error
+// bar.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "math/image.h"
+#include "math/types.h"
+
+namespace meander {
+
+/// Welford's (1962) running mean and sum of squared deviations of the samples of one pixel, per channel.
+struct Pixel {
+  std::array<double, 3> mean{};
+  std::array<double, 3> m2{};
+  std::uint64_t count = 0;
+
+  void add(const Rgb& value) noexcept;
+  /// Variance of the mean, per channel; 0 below two samples.
+  [[nodiscard]] std::array<double, 3> variance_of_mean() const noexcept;
+};
+
+struct Film {
+  int width = 0;
+  int height = 0;
+  std::vector<Pixel> pixels;
+
+  Film() = default;
+  Film(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * h) {}
+  [[nodiscard]] Pixel& at(int x, int y) noexcept { return pixels[static_cast<std::size_t>(y) * width + x]; }
+  [[nodiscard]] const Pixel& at(int x, int y) const noexcept {
+    return pixels[static_cast<std::size_t>(y) * width + x];
+  }
+};
+
+/// Six channels: R G B, then the variance of each mean.
+[[nodiscard]] Image resolve(const Film& film);
+
+/// sqrt(mean over channels and masked pixels of v / (m^2 + 1e-4)), v the variance of the pixel's mean m.
+/// `mask` has one entry a pixel, non-zero where it counts; an empty or all-zero mask counts every pixel.
+/// Infinite while any counted pixel has fewer than two samples.
+[[nodiscard]] double relative_noise(const Film& film, const std::vector<std::uint8_t>& mask);
+
+/// Mean over all pixels, per channel.
+[[nodiscard]] std::array<double, 3> mean_of(const Film& film);
+
+}  // namespace meander

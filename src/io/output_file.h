@@ -1,0 +1,22 @@
+// Files that appear whole or not at all: written under a temporary name beside their own, then renamed.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace meander {
+
+/// Refuses before long work what write_file would refuse after it. `extensions` are the file types allowed,
+/// in lower case with their dot (".exr"); the path's may be in any case. Leaves nothing behind. Error
+/// (input): unknown type, no such folder, a folder that cannot be written, an existing directory, an existing
+/// read-only file.
+void check_writable(const std::string& path, std::span<const std::string_view> extensions);
+
+/// Replaces or creates `path`, through `.<stem>.partial-<pid><extension>` in the same folder, flushed to the
+/// device before it is renamed. Error (input) with the system's reason, and no file of either name made, when
+/// it fails.
+void write_file(const std::string& path, std::span<const std::byte> bytes);
+
+}  // namespace meander

@@ -1,0 +1,48 @@
+// Addressed randomness: a stream is named by (seed, pixel, sample) and never stored across samples. 32-bit arithmetic
+// alone, so that a vector version gives the same numbers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "math/types.h"
+
+namespace meander {
+
+/// Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel Random Numbers: As Easy as 1, 2, 3"): a bijection of the
+/// 128-bit counter for each 64-bit key, so that distinct addresses never share a state.
+[[nodiscard]] std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
+                                                  std::array<std::uint32_t, 2> key) noexcept;
+
+/// xoshiro128++ 1.0 (Blackman & Vigna 2021, "Scrambled Linear Pseudorandom Number Generators"). The state must not be
+/// all zero.
+class Random {
+ public:
+  explicit Random(const std::array<std::uint32_t, 4>& state) noexcept : s_(state) {}
+
+  [[nodiscard]] std::uint32_t next_bits() noexcept {
+    const std::uint32_t result = rotate(s_[0] + s_[3], 7) + s_[0];
+    const std::uint32_t t = s_[1] << 9;
+    s_[2] ^= s_[0];
+    s_[3] ^= s_[1];
+    s_[1] ^= s_[2];
+    s_[0] ^= s_[3];
+    s_[2] ^= t;
+    s_[3] = rotate(s_[3], 11);
+    return result;
+  }
+
+  /// Uniform on the grid k 2^-24, k = 0 … 2^24 - 1: 1 - next() is exact in float and never 0. The grid caps one free
+  /// flight at 16.6 mean free paths.
+  [[nodiscard]] Real next() noexcept { return static_cast<Real>(next_bits() >> 8) * Real(0x1p-24); }
+
+ private:
+  static std::uint32_t rotate(std::uint32_t x, int k) noexcept { return (x << k) | (x >> (32 - k)); }
+
+  std::array<std::uint32_t, 4> s_;
+};
+
+/// The stream of one sample of one pixel. Streams of one seed never start from the same state.
+[[nodiscard]] Random stream(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample) noexcept;
+
+}  // namespace meander

@@ -1,0 +1,37 @@
+// What a walk needs to know of a homogeneous medium, and the three ways people describe one.
+#pragma once
+
+#include "math/types.h"
+
+namespace meander {
+
+/// A homogeneous medium. sigma_t is the extinction coefficient per scene unit (>= 0, 0 is vacuum), albedo the
+/// single-scattering albedo sigma_s / sigma_t in [0, 1], both per channel; g the Henyey-Greenstein mean
+/// cosine, |g| < 1.
+struct Medium {
+  Rgb sigma_t{1};
+  Rgb albedo{0};
+  Real g = 0;
+};
+
+enum class Inversion { exact, chiang, van_de_hulst };
+
+/// sigma_s and sigma_a >= 0 per scene unit.
+[[nodiscard]] Medium medium_from_sigma(const DVec3& sigma_s, const DVec3& sigma_a, double g);
+
+/// albedo in [0, 1]; mean_free_path > 0 in scene units, +infinity is vacuum.
+[[nodiscard]] Medium medium_from_albedo(const DVec3& albedo, const DVec3& mean_free_path, double g);
+
+/// color in [0, 1]: the diffuse albedo of a half-space of the material, matched boundary; radius > 0 in scene
+/// units. `exact` (ColorMap) and `van_de_hulst` (Kulla & Conty 2017) take sigma_t = 1 / radius; `chiang`
+/// (Chiang, Kutz, Burley 2016) yields reduced quantities, which are un-reduced by similarity for g. An
+/// infinite radius is vacuum.
+[[nodiscard]] Medium medium_from_color(const DVec3& color, const DVec3& radius, double g,
+                                       Inversion inversion);
+
+/// The colour (diffuse albedo of the matched half-space under uniform light) that a medium of this albedo and
+/// g delivers: monotone in albedo, 0 at 0 and 1 at 1. Accurate within 1e-5 (ColorMap, which to keep where it
+/// is asked more than once for one g != 0).
+[[nodiscard]] DVec3 color_of(const DVec3& albedo, double g);
+
+}  // namespace meander

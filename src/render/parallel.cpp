@@ -1,0 +1,49 @@
+#include "render/parallel.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#ifdef MEANDER_TSAN
+// TBB itself is not instrumented, so this file is not either, and it says what TBB guarantees: what was written before
+// the loop is seen in it, and what the loop wrote is seen after it.
+extern "C" void __tsan_acquire(void*);
+extern "C" void __tsan_release(void*);
+#endif
+
+namespace meander {
+namespace {
+
+#ifdef MEANDER_TSAN
+void release(char* mark) { __tsan_release(mark); }
+void acquire(char* mark) { __tsan_acquire(mark); }
+#else
+void release(char*) {}
+void acquire(char*) {}
+#endif
+
+}  // namespace
+
+void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& body) {
+  namespace tbb = oneapi::tbb;
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  char begun = 0;
+  char ended = 0;
+  release(&begun);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          acquire(&begun);
+          for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+          release(&ended);
+        },
+        tbb::simple_partitioner());
+  });
+  acquire(&ended);
+}
+
+int hardware_threads() { return oneapi::tbb::info::default_concurrency(); }
+
+}  // namespace meander

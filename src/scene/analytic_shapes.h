@@ -1,0 +1,144 @@
+// Exact convex shapes under a linear map: the sphere, the box and the unbounded slab. Each answers where a line is
+// inside it; no tessellation and no epsilon. Parallel and grazing lines are ordinary cases.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "math/types.h"
+#include "scene/crossing.h"
+
+namespace meander {
+
+/// The part near <= t <= far of a line o + t d that is inside a shape, with the outward gradients at its ends (not
+/// normalised).
+struct Interval {
+  Real near;
+  Real far;
+  Vec3 near_gradient;
+  Vec3 far_gradient;
+};
+
+/// Unit sphere at the origin.
+struct UnitSphere {
+  /// Roots by the product rule, so that neither loses digits to cancellation; the discriminant from the closest point
+  /// (Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection").
+  [[nodiscard]] static std::optional<Interval> inside(const Vec3& o, const Vec3& d) noexcept {
+    const Real dd = glm::dot(d, d);
+    const Real middle = -glm::dot(o, d) / dd;
+    const Vec3 closest = o + middle * d;
+    const Real discriminant = 1 - glm::dot(closest, closest);
+    if (!(discriminant >= 0)) return std::nullopt;
+    const Real half = std::sqrt(discriminant / dd);
+    const Real product = (glm::dot(o, o) - 1) / dd;
+    const Real outer = middle + std::copysign(half, middle);
+    const Real inner = outer != 0 ? product / outer : -outer;
+    const Real near = std::min(outer, inner);
+    const Real far = std::max(outer, inner);
+    return Interval{near, far, o + near * d, o + far * d};
+  }
+  [[nodiscard]] static Vec3 snap(const Vec3& p, const Vec3&) noexcept { return glm::normalize(p); }
+};
+
+namespace detail {
+
+/// Clips an interval to |o_axis + t d_axis| <= 1.
+[[nodiscard]] inline bool clip_to_slab(Interval& interval, const Vec3& o, const Vec3& d, int axis) noexcept {
+  Vec3 gradient(0);
+  if (d[axis] == 0) return std::abs(o[axis]) <= 1;
+  const Real sign = std::copysign(Real(1), d[axis]);
+  gradient[axis] = sign;
+  const Real near = (-sign - o[axis]) / d[axis];
+  const Real far = (sign - o[axis]) / d[axis];
+  if (near > interval.near) {
+    interval.near = near;
+    interval.near_gradient = -gradient;
+  }
+  if (far < interval.far) {
+    interval.far = far;
+    interval.far_gradient = gradient;
+  }
+  return interval.near <= interval.far;
+}
+
+/// Puts a point onto the face of a box or slab that a gradient (a signed axis) names.
+[[nodiscard]] inline Vec3 snap_to_face(const Vec3& p, const Vec3& gradient) noexcept {
+  return p + gradient * (1 - glm::dot(p, gradient));
+}
+
+[[nodiscard]] inline Interval whole_line() noexcept {
+  constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+  return {-kInfinity, kInfinity, Vec3(0, 0, 1), Vec3(0, 0, 1)};
+}
+
+}  // namespace detail
+
+/// [-1, 1]^3.
+struct UnitBox {
+  [[nodiscard]] static std::optional<Interval> inside(const Vec3& o, const Vec3& d) noexcept {
+    Interval interval = detail::whole_line();
+    for (int axis = 0; axis < 3; ++axis)
+      if (!detail::clip_to_slab(interval, o, d, axis)) return std::nullopt;
+    return interval;
+  }
+  [[nodiscard]] static Vec3 snap(const Vec3& p, const Vec3& gradient) noexcept {
+    return detail::snap_to_face(p, gradient);
+  }
+};
+
+/// |y| <= 1, unbounded in x and z.
+struct UnitSlab {
+  [[nodiscard]] static std::optional<Interval> inside(const Vec3& o, const Vec3& d) noexcept {
+    Interval interval = detail::whole_line();
+    if (!detail::clip_to_slab(interval, o, d, 1)) return std::nullopt;
+    return interval;
+  }
+  [[nodiscard]] static Vec3 snap(const Vec3& p, const Vec3& gradient) noexcept {
+    return detail::snap_to_face(p, gradient);
+  }
+};
+
+/// A unit shape under the linear map `from_unit`, in the body's own coordinates (its centre at the origin).
+template <class Unit>
+struct AffineShape {
+  Mat3 from_unit;
+  Mat3 to_unit;
+  Mat3 gradient_map;  // transpose of to_unit: takes gradients back
+
+  explicit AffineShape(const DMat3& map)
+      : from_unit(map), to_unit(glm::inverse(map)), gradient_map(glm::transpose(glm::inverse(map))) {}
+
+  /// A point that is on the surface but for rounding, put onto it.
+  [[nodiscard]] Vec3 snap(const Vec3& p, const Vec3& gradient) const noexcept {
+    return from_unit * Unit::snap(to_unit * p, gradient);
+  }
+
+  [[nodiscard]] Vec3 normal_from(const Vec3& gradient) const noexcept {
+    return glm::normalize(gradient_map * gradient);
+  }
+
+  /// Where a line with unit direction is inside, distances in body units; normals are not set.
+  [[nodiscard]] std::optional<Interval> inside(const Vec3& o, const Vec3& d) const noexcept {
+    return Unit::inside(to_unit * o, to_unit * d);
+  }
+
+  /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. A point that
+  /// rounding put just outside leaves at once; nothing leaks.
+  [[nodiscard]] Crossing first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+    const auto interval = inside(p, d);
+    const Real far = interval ? std::max(interval->far, Real(0)) : Real(0);
+    if (distance < far) return {CrossingKind::none, distance, p + distance * d, {}, {}};
+    if (far == std::numeric_limits<Real>::infinity()) return {CrossingKind::leaked, far, p, {}, {}};
+    const Vec3 gradient = interval ? interval->far_gradient : to_unit * p;
+    const Vec3 normal = normal_from(gradient);
+    return {CrossingKind::exit, far, interval ? snap(p + far * d, gradient) : p, normal, normal};
+  }
+};
+
+using SphereBody = AffineShape<UnitSphere>;
+using BoxBody = AffineShape<UnitBox>;
+using SlabBody = AffineShape<UnitSlab>;
+
+}  // namespace meander

@@ -1,0 +1,37 @@
+// Where rays and walks meet surfaces: the words that geometry and walks share.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "math/types.h"
+
+namespace meander {
+
+enum class CrossingKind : std::uint8_t {
+  none,    // the step stays inside; `point` is where it ends
+  exit,    // the step crosses the surface; `point` lies on it
+  leaked,  // the walk is outside without having crossed: the surface has a hole
+};
+
+/// The outcome of one step in the body's own coordinates. `normal` (geometric) and `shading_normal` are unit, outward,
+/// and set only at an exit.
+struct Crossing {
+  CrossingKind kind = CrossingKind::none;
+  Real distance = 0;
+  Vec3 point{0};
+  Vec3 normal{0, 0, 1};
+  Vec3 shading_normal{0, 0, 1};
+};
+
+/// Where a ray in the world meets an object. `point` is in the object's own coordinates; normals are unit and outward.
+struct SurfaceHit {
+  std::size_t object = 0;
+  double distance = 0;
+  Vec3 point{0};
+  Vec3 normal{0, 0, 1};
+  Vec3 shading_normal{0, 0, 1};
+  bool entering = true;  // the ray comes from outside
+};
+
+}  // namespace meander

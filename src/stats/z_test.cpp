@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include "stats/counted_pixels.h"
+#include "stats/distributions.h"
+#include "stats/hypothesis.h"
+#include "stats/image_error.h"
+
+namespace meander {
+namespace {
+
+constexpr double kRounding = 1e-6;  // standard error granted to a value, relative to |a| + |b|
+
+// A sum of differences with its two kinds of error: independent noise, whose variances add, and rounding,
+// which may lean the same way everywhere, so that its standard errors add.
+struct Difference {
+  double sum = 0;
+  double variance_a = 0;
+  double variance_b = 0;
+  double rounding = 0;
+  std::size_t count = 0;
+
+  void add(const Difference& other) {
+    sum += other.sum;
+    variance_a += other.variance_a;
+    variance_b += other.variance_b;
+    rounding += other.rounding;
+    count += other.count;
+  }
+  [[nodiscard]] double z() const {
+    return z_score(sum, 0, std::sqrt(variance_a + variance_b + rounding * rounding));
+  }
+};
+
+// Empty (count 0) when a value or a variance is not finite, or a variance negative.
+Difference difference_at(const Image& a, const Image& b, std::size_t pixel, int channel) {
+  const float* in_a = &a.values[pixel * a.channels];
+  const float* in_b = &b.values[pixel * b.channels];
+  const double x = in_a[channel];
+  const double y = in_b[channel];
+  const double variance_a = in_a[channel + 3];
+  const double variance_b = in_b[channel + 3];
+  const bool usable = std::isfinite(x) && std::isfinite(y) && std::isfinite(variance_a + variance_b) &&
+                      std::min(variance_a, variance_b) >= 0;
+  if (!usable) return {};
+  return {x - y, variance_a, variance_b, kRounding * (std::abs(x) + std::abs(y)), 1};
+}
+
+// z of a single value. The variance of a few samples of a skewed quantity is often far too small, and
+// smallest where the mean is too low; the mean variance of the block stands in where it is larger. Values
+// without any variance are deterministic and stay so.
+double value_z(Difference value, const Difference& block) {
+  if (value.variance_a + value.variance_b > 0) {
+    const double count = static_cast<double>(block.count);
+    value.variance_a = std::max(value.variance_a, block.variance_a / count);
+    value.variance_b = std::max(value.variance_b, block.variance_b / count);
+  }
+  return value.z();
+}
+
+void keep_worst(double& worst, double z) {
+  if (std::abs(z) > std::abs(worst)) worst = z;
+}
+
+using Channels = std::array<Difference, 3>;
+
+// The images and their division into blocks, row by row of blocks.
+struct Comparison {
+  const Image& a;
+  const Image& b;
+  CountedPixels counted;
+  int block;
+
+  [[nodiscard]] int across() const { return (a.width + block - 1) / block; }
+  [[nodiscard]] int down() const { return (a.height + block - 1) / block; }
+
+  // Calls visit(block index, channel, difference) for every counted value.
+  template <class Visit>
+  void for_each_value(const Visit& visit) const {
+    for (int y = 0; y < a.height; ++y) {
+      for (int x = 0; x < a.width; ++x) {
+        const std::size_t pixel = static_cast<std::size_t>(y) * a.width + x;
+        if (!counted.counts(pixel)) continue;
+        const std::size_t home = static_cast<std::size_t>(y / block) * across() + x / block;
+        for (int channel = 0; channel < 3; ++channel)
+          visit(home, channel, difference_at(a, b, pixel, channel));
+      }
+    }
+  }
+};
+
+std::vector<Channels> sum_blocks(const Comparison& images, ZTest& test) {
+  std::vector<Channels> blocks(static_cast<std::size_t>(images.across()) * images.down());
+  images.for_each_value([&](std::size_t block, int channel, const Difference& value) {
+    ++test.values;
+    test.non_finite += value.count == 0;
+    blocks[block][channel].add(value);
+  });
+  return blocks;
+}
+
+void test_values(const Comparison& images, const std::vector<Channels>& blocks, const ZTestOptions& options,
+                 ZTest& test) {
+  test.pixel_threshold = two_sided_threshold(sidak_level(options.alpha, test.values));
+  std::size_t failed = 0;
+  images.for_each_value([&](std::size_t block, int channel, const Difference& value) {
+    if (value.count == 0) return;
+    const double z = value_z(value, blocks[block][channel]);
+    failed += std::abs(z) > test.pixel_threshold;
+    keep_worst(test.worst_pixel_z, z);
+  });
+  test.failed_fraction =
+      static_cast<double>(failed) / static_cast<double>(std::max<std::size_t>(test.values, 1));
+  test.pixels_passed = 1 - test.failed_fraction >= options.pixels_passing;
+}
+
+// The sums to be judged as blocks. A block the mask leaves mostly empty has too few variances behind its
+// standard error for the normal's tail, so such blocks are pooled until half a block has come together.
+std::vector<Difference> pool_small_blocks(const std::vector<Channels>& blocks, int channel,
+                                          std::size_t least) {
+  std::vector<Difference> sums;
+  Difference pool;
+  for (const Channels& block : blocks) {
+    Difference& target = block[channel].count < least ? pool : sums.emplace_back();
+    target.add(block[channel]);
+    if (pool.count < least) continue;
+    sums.push_back(pool);
+    pool = {};
+  }
+  if (pool.count == 0) return sums;
+  if (sums.empty()) sums.emplace_back();
+  sums.back().add(pool);
+  return sums;
+}
+
+void test_blocks(const std::vector<Channels>& blocks, std::size_t least, double level, ZTest& test) {
+  std::size_t count = 0;
+  for (int channel = 0; channel < 3; ++channel) {
+    const std::vector<Difference> sums = pool_small_blocks(blocks, channel, least);
+    count += sums.size();
+    for (const Difference& sum : sums) keep_worst(test.worst_block_z, sum.z());
+  }
+  test.block_threshold = two_sided_threshold(sidak_level(level, count));
+  test.block_p = sidak_p(two_sided_p(test.worst_block_z), count);
+  test.blocks_passed = std::abs(test.worst_block_z) <= test.block_threshold;
+}
+
+void test_image(const std::vector<Channels>& blocks, double level, ZTest& test) {
+  double worst = 0;
+  for (int channel = 0; channel < 3; ++channel) {
+    Difference total;
+    for (const Channels& block : blocks) total.add(block[channel]);
+    test.image_z[channel] = total.z();
+    keep_worst(worst, test.image_z[channel]);
+  }
+  test.image_threshold = two_sided_threshold(sidak_level(level, 3));
+  test.image_p = sidak_p(two_sided_p(worst), 3);
+  test.image_passed = std::abs(worst) <= test.image_threshold;
+}
+
+}  // namespace
+
+ZTest z_test(const Image& a, const Image& b, std::span<const std::uint8_t> mask,
+             const ZTestOptions& options) {
+  assert(options.block > 0 && options.alpha > 0 && options.alpha < 1);
+  const Comparison images{a, b, CountedPixels(a, b, mask, 6), options.block};
+  ZTest test;
+  const std::vector<Channels> blocks = sum_blocks(images, test);
+  test_values(images, blocks, options, test);
+  const double level = sidak_level(options.alpha, 2);
+  const std::size_t half_block = (static_cast<std::size_t>(options.block) * options.block + 1) / 2;
+  test_blocks(blocks, half_block, level, test);
+  test_image(blocks, level, test);
+  test.passed = test.non_finite == 0 && test.pixels_passed && test.blocks_passed && test.image_passed;
+  return test;
+}
+
+}  // namespace meander

@@ -1,0 +1,61 @@
+// A scene's geometry for rays and walks: every object a body in its own coordinates, placed by a translation in double.
+#pragma once
+
+#include <limits>
+#include <variant>
+
+#include "scene/analytic_shapes.h"
+#include "scene/camera_rays.h"
+#include "scene/scene.h"
+#include "trace/mesh_body.h"
+
+namespace meander {
+
+class Geometry {
+ public:
+  /// Builds what tracing needs, on at most `threads` threads; keeps nothing of the scene. Errors: Error(runtime).
+  Geometry(const Scene& scene, int threads);
+
+  /// The first surface along a ray, from either side.
+  [[nodiscard]] std::optional<SurfaceHit> closest_hit(const Ray& ray) const noexcept;
+
+  /// Along `distance` (may be infinite) of a ray: what matched bodies let through unscattered, per channel; 0 where
+  /// any other object stands in the way.
+  [[nodiscard]] Rgb transmittance(const Ray& ray, double distance) const noexcept;
+
+  /// The object's own origin, in the world.
+  [[nodiscard]] const DVec3& center(std::size_t object) const noexcept { return bodies_[object].center; }
+
+  /// The distance that outweighs the rounding of a point of the object, given in its own coordinates.
+  [[nodiscard]] Real offset(std::size_t object, const Vec3& point) const noexcept {
+    return std::max(bodies_[object].size, largest(glm::abs(point))) * Real(0x1p-20);
+  }
+
+  /// Whether a step of a walk in the object costs a ray.
+  [[nodiscard]] bool traces_rays(std::size_t object) const noexcept {
+    return std::holds_alternative<MeshBody>(bodies_[object].shape);
+  }
+
+  /// f(world) with the object's own World.
+  template <class F>
+  [[nodiscard]] auto with_body(std::size_t object, F&& f) const noexcept {
+    return std::visit(std::forward<F>(f), bodies_[object].shape);
+  }
+
+ private:
+  struct Body {
+    std::variant<SphereBody, BoxBody, SlabBody, MeshBody> shape;
+    DVec3 center;
+    Real size;
+    bool matched;  // light passes it unscattered
+    Rgb sigma_t;
+  };
+
+  [[nodiscard]] Body make_body(const Object& object, const Scene& scene) const;
+  [[nodiscard]] static Real length_inside(const Body& body, const Ray& ray, double distance) noexcept;
+
+  Device device_;
+  std::vector<Body> bodies_;
+};
+
+}  // namespace meander

@@ -1,0 +1,68 @@
+// A closed triangle mesh on Embree, in its own coordinates: centred on its bounds, so that a body far from the origin
+// is as exact as one at it.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "scene/crossing.h"
+#include "scene/mesh.h"
+
+namespace meander {
+
+struct DeviceRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneRelease {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
+
+/// An Embree device whose builds use at most `threads` threads. Errors: Error(runtime) when none can be made.
+[[nodiscard]] Device make_device(int threads);
+
+/// Where a line meets the surface: the distance, the place and both normals (unit, outward).
+struct MeshHit {
+  Real distance;
+  Vec3 point;
+  Vec3 normal;
+  Vec3 shading_normal;
+};
+
+class MeshBody {
+ public:
+  /// The mesh under the linear map, moved so that its bounds are centred on the origin; `center` receives where that
+  /// centre was. The mesh must have triangles; a map that mirrors turns them. Errors: Error(runtime) from Embree.
+  MeshBody(RTCDevice device, const Mesh& mesh, const DMat3& map, DVec3& center);
+
+  /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. Only crossings
+  /// outward count. A point that rounding left outside leaves at once, and one about to be left outside is moved in by
+  /// the offset.
+  [[nodiscard]] Crossing first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+
+  /// The first surface within `distance` along a ray, from either side.
+  [[nodiscard]] std::optional<MeshHit> closest(const Vec3& o, const Vec3& d, Real distance) const noexcept;
+
+  [[nodiscard]] bool occluded(const Vec3& o, const Vec3& d, Real distance) const noexcept;
+
+  /// Half the size of the bounds along each axis.
+  [[nodiscard]] const Vec3& half_size() const noexcept { return half_size_; }
+
+ private:
+  [[nodiscard]] MeshHit resolve(const RTCRayHit& query) const noexcept;
+  [[nodiscard]] bool is_outside(const Vec3& p, const Vec3& d) const noexcept;
+
+  std::vector<glm::vec3> positions_;  // one spare at the end: Embree reads 16 bytes a vertex
+  std::vector<Triangle> triangles_;
+  std::vector<glm::vec3> normals_;
+  std::vector<Triangle> normal_triangles_;
+  std::unique_ptr<RTCSceneTy, SceneRelease> scene_;
+  Vec3 half_size_{0};
+  Real margin_ = 0;  // how far around a point rounding is looked for: 2^-14 of the size
+  Real offset_ = 0;  // what outweighs the rounding of a point: 2^-21 of the size
+};
+
+}  // namespace meander

@@ -1,0 +1,111 @@
+// One sample of a pixel: from the camera through media and off surfaces until the light is found or the weight is gone.
+// Every light is sampled where the path scatters; rays that hit a light by themselves share it by the balance
+// heuristic. A constant environment is collected by escaping rays alone.
+#pragma once
+
+#include <atomic>
+
+#include "scene/crossing.h"
+#include "walk/lights.h"
+#include "walk/lobe.h"
+#include "walk/random_walk.h"
+#include "walk/sink.h"
+
+namespace meander {
+
+/// What a path asks of a scene's geometry.
+/// closest_hit: the first surface along a ray. center: an object's origin in the world. offset: the distance that
+/// outweighs the rounding of a point of it. with_body: calls f with the object's World, returns what f returns. transmittance: along a
+/// segment through every matched body on it, 0 where anything else stands in the way. traces_rays: whether a step in
+/// the object costs a ray.
+template <class G>
+concept SceneGeometry = requires(const G& geometry, const Ray& ray, std::size_t object, const Vec3& point,
+                                 double distance) {
+  { geometry.closest_hit(ray) } -> std::same_as<std::optional<SurfaceHit>>;
+  { geometry.center(object) } -> std::convertible_to<DVec3>;
+  { geometry.offset(object, point) } -> std::convertible_to<Real>;
+  { geometry.transmittance(ray, distance) } -> std::same_as<Rgb>;
+  { geometry.traces_rays(object) } -> std::same_as<bool>;
+};
+
+/// What happened on the way, for statistics.
+struct PathCounters {
+  std::uint64_t walks = 0;
+  std::uint64_t steps = 0;
+  std::uint64_t rays = 0;
+  std::uint64_t leaked_walks = 0;
+
+  void operator+=(const PathCounters& other) noexcept {
+    walks += other.walks;
+    steps += other.steps;
+    rays += other.rays;
+    leaked_walks += other.leaked_walks;
+  }
+};
+
+struct PathOptions {
+  Estimator estimator = Estimator::implicit;
+  bool chromatic = false;                       // some medium's sigma_t differs between channels
+  const std::atomic<bool>* stop = nullptr;      // asked every kStopInterval steps
+};
+
+/// Traces paths in one scene; holds references only. One tracer a thread, for the counters' sake.
+template <SceneGeometry G>
+class PathTracer {
+ public:
+  PathTracer(const Scene& scene, const G& geometry, const PathOptions& options) noexcept
+      : scene_(scene), geometry_(geometry), options_(options) {}
+
+  /// Traces one path and hands its contributions to the sink; false when it was interrupted.
+  template <Sink S>
+  [[nodiscard]] bool trace(const Ray& camera_ray, Random& random, S& sink) noexcept;
+
+  [[nodiscard]] const PathCounters& counters() const noexcept { return counters_; }
+
+ private:
+  // The path between two interactions. `vertex` is where it last scattered, `pdf` the density per steradian of the
+  // direction it took there, `light_choice` the probability with which any one light was sampled there.
+  struct State {
+    Ray ray;
+    PathWeight weight;
+    bool scattered = false;  // false: this is still what the camera sees directly
+    DVec3 vertex{0};
+    Real pdf = 0;
+    Real light_choice = 1;
+  };
+  template <Sink S>
+  struct WalkObserver;
+
+  enum class Step { go_on, done, interrupted };
+
+  template <Sink S>
+  [[nodiscard]] Step advance(State& state, Random& random, S& sink) noexcept;
+  template <Sink S>
+  [[nodiscard]] Step reflect(const SurfaceHit& hit, const LambertLobe& lobe, State& state, Random& random,
+                             S& sink) noexcept;
+  template <Sink S>
+  [[nodiscard]] Step cross_body(const SurfaceHit& hit, const TranslucentMaterial& material, State& state,
+                                Random& random, S& sink) noexcept;
+  template <Sink S>
+  [[nodiscard]] bool collect_lights(const State& state, double distance, S& sink) const noexcept;
+  template <Sink S>
+  void collect_environment(const State& state, S& sink) const noexcept;
+  template <Sink S, class Density>
+  void sample_direct(std::size_t light, const State& vertex, const Density& density, const Vec2& u, S& sink) noexcept;
+
+  [[nodiscard]] bool stop() const noexcept {
+    return options_.stop && options_.stop->load(std::memory_order_relaxed);
+  }
+  [[nodiscard]] DVec3 outside(std::size_t object, const Vec3& point, const Vec3& normal) const noexcept {
+    return geometry_.center(object) + DVec3(point + geometry_.offset(object, point) * normal);
+  }
+
+  const Scene& scene_;
+  const G& geometry_;
+  PathOptions options_;
+  PathCounters counters_;
+};
+
+}  // namespace meander
+
+#include "walk/path.inl"

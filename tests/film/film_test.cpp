@@ -1,0 +1,122 @@
+#include "film/film.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "math/random.h"
+
+namespace meander {
+
+namespace {
+
+/// Variance of the mean by the textbook's two passes.
+double two_pass(const std::vector<double>& samples) {
+  const double n = static_cast<double>(samples.size());
+  double sum = 0;
+  for (const double x : samples) sum += x;
+  double squares = 0;
+  for (const double x : samples) squares += (x - sum / n) * (x - sum / n);
+  return squares / (n - 1) / n;
+}
+
+Pixel make_pixel(std::initializer_list<Rgb> samples) {
+  Pixel pixel;
+  for (const Rgb& sample : samples) pixel.add(sample);
+  return pixel;
+}
+
+}  // namespace
+
+TEST_CASE("a pixel holds the mean, the count and the two-pass variance of its samples, per channel") {
+  Random random = stream(1, 2, 3);
+  Pixel pixel;
+  std::vector<double> channels[3];
+  for (int i = 0; i < 1000; ++i) {
+    const Real u = random.next();
+    const Rgb sample(u, u * u * 5, 1 - u);
+    pixel.add(sample);
+    for (int c = 0; c < 3; ++c) channels[c].push_back(static_cast<double>(sample[c]));
+  }
+  CHECK(pixel.count == 1000);
+  for (int c = 0; c < 3; ++c) {
+    double sum = 0;
+    for (const double x : channels[c]) sum += x;
+    CHECK(pixel.mean[c] == doctest::Approx(sum / 1000).epsilon(1e-13));
+    CHECK(pixel.variance_of_mean()[c] == doctest::Approx(two_pass(channels[c])).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the variance survives an offset of 1e8 that would drown a sum of squares") {
+  Pixel pixel;
+  std::vector<double> samples;
+  for (int i = 0; i < 4000; ++i) {
+    const Real x = Real(1e8) + Real(8 * (i % 4));  // multiples of 8: exact in float
+    pixel.add(Rgb(x, 1, 0));
+    samples.push_back(static_cast<double>(x));
+  }
+  CHECK(pixel.mean[0] == doctest::Approx(1e8 + 12).epsilon(1e-15));
+  CHECK(pixel.variance_of_mean()[0] == doctest::Approx(two_pass(samples)).epsilon(1e-8));
+  CHECK(pixel.variance_of_mean()[0] == doctest::Approx(80.0 / 3999).epsilon(1e-8));
+  CHECK(pixel.variance_of_mean()[1] == 0);
+}
+
+TEST_CASE("below two samples the variance of the mean is 0") {
+  CHECK(Pixel{}.variance_of_mean()[0] == 0);
+  CHECK(make_pixel({Rgb(5)}).variance_of_mean()[1] == 0);
+  CHECK(make_pixel({Rgb(5)}).mean[1] == 5);
+  CHECK(make_pixel({Rgb(5), Rgb(7)}).variance_of_mean()[1] == 1);
+}
+
+TEST_CASE("a resolved film is its means and their variances, pixel by pixel") {
+  Film film(3, 2);
+  film.at(2, 1) = make_pixel({Rgb(1, 10, 100), Rgb(3, 14, 100)});
+  film.at(1, 0) = make_pixel({Rgb(0.5, 0, 0)});
+  const Image image = resolve(film);
+  CHECK(image.width == 3);
+  CHECK(image.height == 2);
+  REQUIRE(image.channels == 6);
+  const float expected[6] = {2, 12, 100, 1, 4, 0};
+  for (int c = 0; c < 6; ++c) CHECK(image.at(2, 1)[c] == expected[c]);
+  CHECK(image.at(1, 0)[0] == 0.5f);
+  CHECK(image.at(1, 0)[3] == 0);
+  CHECK(image.at(0, 0)[0] == 0);
+}
+
+TEST_CASE("relative noise is the documented root mean over channels and masked pixels") {
+  Film film(2, 1);
+  film.at(0, 0) = make_pixel({Rgb(1, 0, 2), Rgb(3, 0, 2)});    // means 2, 0, 2; variances 1, 0, 0
+  film.at(1, 0) = make_pixel({Rgb(-1, 4, 4), Rgb(1, 6, 12)});  // means 0, 5, 8; variances 1, 1, 16
+  const double left = 1 / (4 + 1e-4);
+  const double right = 1 / 1e-4 + 1 / (25 + 1e-4) + 16 / (64 + 1e-4);
+  const double both = std::sqrt((left + right) / 6);
+  CHECK(relative_noise(film, {1, 0}) == doctest::Approx(std::sqrt(left / 3)).epsilon(1e-13));
+  CHECK(relative_noise(film, {0, 255}) == doctest::Approx(std::sqrt(right / 3)).epsilon(1e-13));
+  CHECK(relative_noise(film, {1, 1}) == doctest::Approx(both).epsilon(1e-13));
+  CHECK(relative_noise(film, {}) == doctest::Approx(both).epsilon(1e-13));
+  CHECK(relative_noise(film, {0, 0}) == doctest::Approx(both).epsilon(1e-13));
+}
+
+TEST_CASE("relative noise is infinite while a counted pixel has fewer than two samples, and only then") {
+  Film film(2, 1);
+  CHECK(relative_noise(film, {}) == std::numeric_limits<double>::infinity());
+  film.at(0, 0) = make_pixel({Rgb(1), Rgb(1)});
+  film.at(1, 0) = make_pixel({Rgb(1)});
+  CHECK(relative_noise(film, {1, 1}) == std::numeric_limits<double>::infinity());
+  CHECK(relative_noise(film, {1, 0}) == 0);
+}
+
+TEST_CASE("the mean of a film weighs pixels equally, whatever their counts") {
+  Film film(2, 1);
+  film.at(0, 0) = make_pixel({Rgb(1, 2, 3)});
+  film.at(1, 0) = make_pixel({Rgb(3, 0, 3), Rgb(3, 0, 3), Rgb(3, 0, 3)});
+  const std::array<double, 3> mean = mean_of(film);
+  CHECK(mean[0] == 2);
+  CHECK(mean[1] == 1);
+  CHECK(mean[2] == 3);
+  CHECK(mean_of(Film{})[0] == 0);
+}
+
+}  // namespace meander

@@ -1,0 +1,141 @@
+#include "film/plan.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace meander {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Runs the plan on an image whose every sample takes `rate` seconds and whose noise is `noise` / sqrt(spp).
+struct Run {
+  double rate = 0;
+  double noise = 1;
+  Progress progress{};
+  std::vector<std::uint64_t> passes{};
+
+  void go(const Budget& budget, int most = 100000) {
+    while (const std::uint64_t pass = next_pass(progress, budget)) {
+      REQUIRE(static_cast<int>(passes.size()) < most);
+      passes.push_back(pass);
+      progress.spp += pass;
+      progress.seconds = rate * static_cast<double>(progress.spp);
+      progress.noise = progress.spp < 2 ? kInfinity : noise / std::sqrt(static_cast<double>(progress.spp));
+    }
+  }
+};
+
+Budget spp(std::uint64_t n) { return {n, {}, {}}; }
+Budget seconds(double s) { return {{}, s, {}}; }
+Budget error(double e) { return {{}, {}, e}; }
+
+}  // namespace
+
+TEST_CASE("passes double the total and stop at the sample budget exactly") {
+  Run run;
+  run.go(spp(64));
+  CHECK(run.passes == std::vector<std::uint64_t>{1, 1, 2, 4, 8, 16, 32});
+  Run odd;
+  odd.go(spp(21));
+  CHECK(odd.passes == std::vector<std::uint64_t>{1, 1, 2, 4, 8, 5});
+  CHECK(next_pass({}, spp(0)) == 0);
+  CHECK(next_pass({64, 1, 0}, spp(64)) == 0);
+  CHECK(next_pass({70, 1, 0}, spp(64)) == 0);
+}
+
+TEST_CASE("without a budget the plan never ends") {
+  CHECK(next_pass({}, {}) == 1);
+  CHECK(next_pass({1024, 0.001, 0}, {}) == 1024);
+  CHECK(next_pass({1ull << 40, 1e12, 0}, {}) == 1);
+}
+
+TEST_CASE("no pass past the first is predicted to take over half a second, unless one sample does") {
+  Run run;
+  run.rate = 0.06;
+  run.go(spp(64));
+  CHECK(run.passes == std::vector<std::uint64_t>{1, 1, 2, 4, 8, 8, 8, 8, 8, 8, 8});
+  Run slow;
+  slow.rate = 3;
+  slow.go(spp(4));
+  CHECK(slow.passes == std::vector<std::uint64_t>{1, 1, 1, 1});
+}
+
+TEST_CASE("a time budget is kept within half a sample's time") {
+  for (const double rate : {1e-4, 0.003, 0.04, 0.7, 1.9}) {
+    for (const double budget : {1.0, 2.5, 10.0}) {
+      CAPTURE(rate);
+      CAPTURE(budget);
+      Run run;
+      run.rate = rate;
+      run.go(seconds(budget));
+      CHECK(std::abs(run.progress.seconds - budget) <= std::max(0.5 * rate, rate - budget) * 1.000001);
+    }
+  }
+}
+
+TEST_CASE("the last pass fills the time that is left with the nearest number of samples") {
+  // 10 samples took 1 s: 0.1 s each.
+  CHECK(next_pass({10, 1.0, 1}, seconds(1.31)) == 3);
+  CHECK(next_pass({10, 1.0, 1}, seconds(1.29)) == 3);
+  CHECK(next_pass({10, 1.0, 1}, seconds(1.06)) == 1);
+  CHECK(next_pass({10, 1.0, 1}, seconds(1.04)) == 0);
+  CHECK(next_pass({10, 1.0, 1}, seconds(1.0)) == 0);
+  CHECK(next_pass({10, 1.0, 1}, seconds(0.5)) == 0);
+  CHECK(next_pass({10, 1.0, 1}, seconds(kInfinity)) == 5);
+}
+
+TEST_CASE("an image takes its first sample whatever the time, and a clock that stood still limits nothing") {
+  CHECK(next_pass({}, seconds(0)) == 1);
+  CHECK(next_pass({}, seconds(1e-9)) == 1);
+  CHECK(next_pass({4, 0, 1}, seconds(1)) == 4);
+}
+
+TEST_CASE("an error budget ends the image at the first sample count that meets it, not far beyond") {
+  for (const double target : {0.1, 0.03, 0.02}) {
+    CAPTURE(target);
+    Run run;
+    run.go(error(target), 60);
+    CHECK(run.progress.noise <= target);
+    const double needed = 1 / (target * target);
+    CHECK(static_cast<double>(run.progress.spp) >= needed - 1e-6);
+    CHECK(static_cast<double>(run.progress.spp) <= needed + 2);
+  }
+}
+
+TEST_CASE("a pass takes no more samples than the noise still calls for") {
+  CHECK(next_pass({64, 0.01, 0.1}, error(0.08)) == 36);  // 64 (0.1/0.08)^2 = 100
+  CHECK(next_pass({64, 0.01, 0.1}, error(0.0999999)) == 1);
+  CHECK(next_pass({64, 0.01, 0.1}, error(0.01)) == 64);
+  CHECK(next_pass({64, 0.01, 0.1}, error(0)) == 64);
+  CHECK(next_pass({64, 0.01, kInfinity}, error(0.1)) == 64);
+  CHECK(next_pass({64, 0.01, 0.1}, error(0.1)) == 0);
+}
+
+TEST_CASE("noise is not believed before 8 samples") {
+  CHECK(next_pass({4, 0.01, 0}, error(0.1)) == 4);
+  CHECK(next_pass({6, 0.01, 0}, error(0.1)) == 2);
+  CHECK(next_pass({7, 0.01, 0.09}, error(0.1)) == 1);
+  CHECK(next_pass({8, 0.01, 0}, error(0.1)) == 0);
+  Run constant;
+  constant.noise = 0;
+  constant.go(error(0.01));
+  CHECK(constant.progress.spp == 8);
+}
+
+TEST_CASE("of several budgets the first that is met ends the image") {
+  const Progress progress{16, 1.6, 0.05};
+  CHECK(next_pass(progress, Budget{16, 100.0, 0.001}) == 0);
+  CHECK(next_pass(progress, Budget{1000, 1.5, 0.001}) == 0);
+  CHECK(next_pass(progress, Budget{1000, 100.0, 0.06}) == 0);
+  CHECK(next_pass(progress, Budget{1000, 100.0, 0.001}) == 5);
+  CHECK(next_pass(progress, Budget{19, 100.0, 0.001}) == 3);
+  CHECK(next_pass(progress, Budget{1000, 1.8, 0.001}) == 2);
+  CHECK(next_pass(progress, Budget{1000, 100.0, 0.049}) == 1);
+}
+
+}  // namespace meander

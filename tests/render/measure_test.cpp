@@ -1,0 +1,71 @@
+#include <doctest/doctest.h>
+
+#include "render/measure.h"
+#include "stats/hypothesis.h"
+
+using namespace meander;
+
+namespace {
+
+const std::atomic<bool> kRun{false};
+
+}  // namespace
+
+TEST_CASE("van de Hulst's slab is measured within its error bars, by both estimators") {
+  MeasureJob job;
+  job.shape = MeasuredSlab{2};
+  job.g = 0.75;
+  job.walks = 400000;
+  job.threads = 2;
+  Measurement results[2];
+  for (const Estimator estimator : {Estimator::implicit, Estimator::analog}) {
+    job.estimator = estimator;
+    const Measurement m = measure(job, kRun);
+    results[estimator == Estimator::analog] = m;
+    CHECK(m.walks == job.walks);
+    CHECK(std::abs(z_score(m.reflectance.mean, 0.0973946387, m.reflectance.standard_error())) < 4);
+    CHECK(std::abs(z_score(m.transmittance.mean, 0.6609577002, m.transmittance.standard_error())) < 4);
+    CHECK(std::abs(z_score(m.unscattered_transmittance.mean, std::exp(-2.0),
+                           m.unscattered_transmittance.standard_error())) < 4);
+    CHECK(std::abs(m.absorptance.mean - 0.1 * m.mean_path_length.mean) <
+          4 * std::hypot(m.absorptance.standard_error(), 0.1 * m.mean_path_length.standard_error()));
+    const double sum = m.reflectance.mean + m.transmittance.mean + m.absorptance.mean;
+    CHECK(sum == doctest::Approx(1).epsilon(1e-3));
+  }
+  CHECK(results[0].transmittance.standard_error() < results[1].transmittance.standard_error());
+}
+
+TEST_CASE("a measurement depends on its seed, not on its threads") {
+  MeasureJob job;
+  job.shape = MeasuredSphere{3};
+  job.incidence = {true, 1};
+  job.walks = 50000;
+  job.threads = 1;
+  const Measurement one = measure(job, kRun);
+  job.threads = 3;
+  const Measurement three = measure(job, kRun);
+  CHECK(one.reflectance.mean == three.reflectance.mean);
+  CHECK(one.reflectance.m2 == three.reflectance.m2);
+  CHECK(one.steps == three.steps);
+  job.seed = 1;
+  CHECK(measure(job, kRun).reflectance.mean != one.reflectance.mean);
+}
+
+TEST_CASE("the mean path in a sphere without absorption is 4/3 of its optical radius") {
+  MeasureJob job;
+  job.shape = MeasuredSphere{10};
+  job.albedo = 1;
+  job.incidence = {true, 1};
+  job.walks = 200000;
+  job.threads = 2;
+  const Measurement m = measure(job, kRun);
+  CHECK(std::abs(z_score(m.mean_path_length.mean, 40.0 / 3, m.mean_path_length.standard_error())) < 4);
+  CHECK(m.reflectance.mean == doctest::Approx(1));
+}
+
+TEST_CASE("an interrupted measurement keeps whole blocks only") {
+  const std::atomic<bool> stop{true};
+  MeasureJob job;
+  job.shape = MeasuredHalfSpace{};
+  CHECK(measure(job, stop).walks == 0);
+}
