@@ -35,6 +35,21 @@ std::string one_line(const CLI::App& app, const std::string& message) {
   return text + " (see: meander" + verb + " --help)";
 }
 
+// A first argument that is no verb, which the parser would report as a missing one.
+void check_verb(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands({})) {
+    if (verb->get_name() == word) return;
+    names.push_back(verb->get_name());
+  }
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const std::string nearest = nearest_name(word, known);
+  throw Error(Fault::input, "there is no verb '" + word + "'; " +
+                                (nearest.empty() ? "known: " + list_names(known) : "did you mean '" + nearest + "'?"));
+}
+
 }  // namespace
 
 CLI::Validator at_least(double low) {
@@ -56,6 +71,7 @@ int run_command_line(int argc, char** argv) {
   add_capture_command(app, action);
   add_measure_command(app, action);
   add_compare_command(app, action);
+  check_verb(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

@@ -1,0 +1,89 @@
+// The scalar walk's speed on one core: steps and walks a second in the exact sphere and in the torus knot of 100k
+// triangles, at three mean free paths. Never a test: timings are for reading.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "trace/mesh_body.h"
+#include "walk/analytic_worlds.h"
+#include "walk/lobe.h"
+#include "walk/random_walk.h"
+
+using namespace meander;
+
+namespace {
+
+struct SilentEvents {
+  void segment(const Walker&, Real) const noexcept {}
+  void absorbed(const Rgb&) const noexcept {}
+  void scattered(const Walker&) const noexcept {}
+  [[nodiscard]] bool stop() const noexcept { return false; }
+};
+
+// Walks that enter diffusely at points which `start` sets; albedo 0.99, implicit.
+template <World W, class Start>
+void run_walks(benchmark::State& state, const W& world, Real g, const Start& start) {
+  const Real mean_free_path = static_cast<Real>(state.range(0)) / 1000;
+  const WalkModel model{{Rgb(1 / mean_free_path), Rgb(Real(0.99)), g}, Estimator::implicit};
+  std::uint32_t walk = 0;
+  std::uint64_t steps = 0;
+  double sum = 0;
+  double squares = 0;
+  SilentEvents events;
+  for (auto _ : state) {
+    Random random = stream(0, 0, walk++);
+    Walker walker;
+    start(walker, random);
+    const WalkResult result = random_walk(world, model, walker, random, events);
+    const double weight = result.end == WalkEnd::exited ? double{walker.weight.carried().x} : 0;
+    sum += weight;
+    squares += weight * weight;
+    steps += walker.steps;
+  }
+  const double mean = sum / walk;
+  state.counters["steps/s"] = benchmark::Counter(static_cast<double>(steps), benchmark::Counter::kIsRate);
+  state.counters["walks/s"] = benchmark::Counter(walk, benchmark::Counter::kIsRate);
+  state.counters["steps/walk"] = static_cast<double>(steps) / walk;
+  state.counters["escaped"] = mean;
+  state.counters["standard_error"] = std::sqrt((squares / walk - mean * mean) / walk);
+}
+
+void sphere(benchmark::State& state, Real g) {
+  run_walks(state, SphereWorld{1}, g, [](Walker& walker, Random& random) {
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    walker.position = {0, 0, 1};
+    walker.direction = -sample_cosine_hemisphere({u1, u2});
+  });
+}
+
+void mesh(benchmark::State& state, const Mesh& mesh, Real g) {
+  const Device device = make_device(1);
+  DVec3 center;
+  const MeshBody body(device.get(), mesh, DMat3(1), center);
+  run_walks(state, body, g, [&](Walker& walker, Random& random) {
+    const auto count = static_cast<Real>(mesh.triangles.size());
+    const Triangle& t = mesh.triangles[std::min(static_cast<std::size_t>(random.next() * count), mesh.triangles.size() - 1)];
+    const DVec3& a = mesh.positions[t[0]];
+    const DVec3& b = mesh.positions[t[1]];
+    const DVec3& c = mesh.positions[t[2]];
+    const Vec3 normal(glm::normalize(glm::cross(b - a, c - a)));
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    walker.position = Vec3((a + b + c) / 3.0 - center) - Real(0x1p-20) * normal;
+    walker.direction = make_lobe(-normal, -normal).sample({u1, u2});
+  });
+}
+
+void mesh_sphere(benchmark::State& state, Real g) { mesh(state, make_sphere_mesh(71), g); }  // 100 820 triangles
+void torus_knot(benchmark::State& state, Real g) { mesh(state, make_torus_knot(), g); }      // 100 000 triangles
+
+}  // namespace
+
+BENCHMARK_CAPTURE(sphere, isotropic, Real(0))->ArgName("mfp_thousandths")->Arg(100)->Arg(30)->Arg(10);
+BENCHMARK_CAPTURE(sphere, g08, Real(0.8))->ArgName("mfp_thousandths")->Arg(100)->Arg(30)->Arg(10);
+BENCHMARK_CAPTURE(mesh_sphere, isotropic, Real(0))->ArgName("mfp_thousandths")->Arg(100)->Arg(30)->Arg(10);
+BENCHMARK_CAPTURE(torus_knot, isotropic, Real(0))->ArgName("mfp_thousandths")->Arg(100)->Arg(30)->Arg(10);
+BENCHMARK_CAPTURE(torus_knot, g08, Real(0.8))->ArgName("mfp_thousandths")->Arg(100)->Arg(30)->Arg(10);
+
+BENCHMARK_MAIN();

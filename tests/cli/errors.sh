@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# errors.sh MEANDER SOURCE_DIR: bad input gets one clear line, exit code 2, and nothing is written.
+set -uo pipefail
+meander=$1 source=$2
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+cd "$dir" || exit 1
+mkdir in out
+cp "$source/scenes/sphere_furnace.toml" in/good.toml
+failures=0
+
+# refuse WANTED ARGS…: the arguments must fail with a message that contains WANTED.
+refuse() {
+  local wanted=$1 status=0 message
+  shift
+  message=$("$meander" "$@" 2>&1 >out.txt) || status=$?
+  if [ $status -ne 2 ]; then echo "FAILED: meander $*: exit code $status, not 2: $message"; failures=$((failures + 1)); fi
+  if [ "$(printf '%s\n' "$message" | wc -l)" -ne 1 ]; then echo "FAILED: meander $*: not one line: $message"; failures=$((failures + 1)); fi
+  case $message in *"$wanted"*) ;; *) echo "FAILED: meander $*: says '$message', not '$wanted'"; failures=$((failures + 1)) ;; esac
+  if [ -n "$(ls -A out)" ] || [ -s out.txt ]; then echo "FAILED: meander $*: wrote $(ls -A out) $(head -c 99 out.txt)"; failures=$((failures + 1)); rm -rf out; mkdir out; fi
+}
+
+# scene NAME: a scene file from standard input.
+scene() { cat > "in/$1.toml"; }
+wax='[[material]]
+name = "wax"
+albedo = 0.9
+mean_free_path = 0.1'
+
+refuse 'A subcommand is required'
+refuse "did you mean 'render'" rendr in/good.toml -o out/a.exr
+refuse 'known: render, capture' xyzzy
+refuse '--sppp' render in/good.toml -o out/a.exr --sppp 4
+refuse 'required' render in/good.toml
+refuse "'0'" render in/good.toml -o out/a.exr --spp 0
+refuse "'-3'" render in/good.toml -o out/a.exr --time -3
+refuse "'nan'" render in/good.toml -o out/a.exr --error nan
+refuse 'analog' render in/good.toml -o out/a.exr --estimator guided
+refuse '0 <= X0 < X1 <= 256' render in/good.toml -o out/a.exr --crop 10,10,10,20
+refuse 'none.toml: cannot open' render in/none.toml -o out/a.exr
+refuse '.exr' render in/good.toml -o out/a.jpg
+refuse '.png' capture in/good.toml -o out/a.exr
+refuse 'nowhere' render in/good.toml -o nowhere/a.exr
+refuse '.json' render in/good.toml -o out/a.exr --stats out/a.txt
+refuse 'out' render in/good.toml -o out
+refuse 'there is no material named' render in/good.toml -o out/a.exr --set material.jade.g=0
+refuse "did you mean 'white'" render in/good.toml -o out/a.exr --set object.sphere.material=whit
+
+printf '[camera]\nlook_form = [0, 0, 1]\n' | scene unknown
+refuse "in/unknown.toml:2:1: unknown key 'look_form' in [camera]; did you mean 'look_from'?" render in/unknown.toml -o out/a.exr
+printf '[film]\nwidth = "wide"\n' | scene type
+refuse 'in/type.toml:2:9: ' render in/type.toml -o out/a.exr
+printf '%s\ng = nan\n' "$wax" | scene nan
+refuse "in/nan.toml:5:5: 'g' is nan" render in/nan.toml -o out/a.exr
+printf '%s\ng = -1\n' "$wax" | scene g
+refuse "in/g.toml:5:5: 'g' is -1" render in/g.toml -o out/a.exr
+printf '%s\n' "${wax/0.9/1.01}" | scene albedo
+refuse "in/albedo.toml:3:10: 'albedo' is 1.01, but must be in [0, 1]" render in/albedo.toml -o out/a.exr
+printf '%s\n' "${wax/0.1/0}" | scene zero
+refuse "in/zero.toml:4:18: 'mean_free_path' is 0, but must be greater than 0" render in/zero.toml -o out/a.exr
+printf '%s\n[[object]]\nshape = "sphere"\nmaterial = "wax"\ntransform = { scale = -1 }\n' "$wax" | scene scale
+refuse "in/scale.toml:8:23: 'scale' is -1" render in/scale.toml -o out/a.exr
+printf '[film]\nwidth = -5\n' | scene size
+refuse "in/size.toml:2:9: 'width' is -5" render in/size.toml -o out/a.exr
+printf 'width = = 5\n' | scene syntax
+refuse 'in/syntax.toml:1:' render in/syntax.toml -o out/a.exr
+
+mesh_scene() { printf '%s\n[[object]]\nmesh = "%s"\nmaterial = "wax"\n' "$wax" "$1" | scene mesh; }
+mesh_scene none.ply
+refuse 'none.ply: cannot open' render in/mesh.toml -o out/a.exr
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' > in/empty.obj
+mesh_scene empty.obj
+refuse 'in/empty.obj' render in/mesh.toml -o out/a.exr
+printf 'v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n' > in/point.obj
+mesh_scene point.obj
+refuse 'in/point.obj' render in/mesh.toml -o out/a.exr
+head -c 3000 "$source/scenes/soap.ply" > in/cut.ply
+refuse 'in/cut.ply' render in/cut.ply -o out/a.exr
+printf 'hello' > in/word.fbx
+refuse '.ply' render in/word.fbx -o out/a.exr
+
+refuse 'slab' measure cube
+refuse '--albedo is 1.5' measure slab --albedo 1.5
+refuse '--g must be' measure slab --g 1
+refuse '--tau must be' measure slab --tau 0
+refuse 'not finite' measure halfspace --albedo 1
+refuse 'cosine=MU' measure slab --incidence sideways
+refuse 'none.exr' compare in/none.exr in/none.exr
+
+# An open mesh is a warning with the number of open edges, not an error.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' > in/open.obj
+mesh_scene open.obj
+message=$("$meander" render in/mesh.toml -o out/open.exr --spp 1 --width 8 --height 8 2>&1) || { echo "FAILED: an open mesh is refused: $message"; failures=$((failures + 1)); }
+case $message in *'warning: in/open.obj: 3 open edges'*) ;; *) echo "FAILED: an open mesh says: $message"; failures=$((failures + 1)) ;; esac
+
+[ $failures -eq 0 ] || { echo "$failures failures"; exit 1; }
+echo "every bad input was refused in one line"
