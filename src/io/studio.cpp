@@ -1,5 +1,6 @@
 #include "io/studio.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -37,18 +38,34 @@ DVec3 direction(double azimuth, double elevation) {
   return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
 }
 
+// How far along `view` a camera must stand from a box's centre for the box to fill the height, or 16:9 of it across,
+// but for a margin.
+double framing_distance(const DVec3& half_size, const DVec3& view, double fov) {
+  const DVec3 right = glm::normalize(glm::cross(DVec3(0, 1, 0), view));
+  const DVec3 up = glm::cross(view, right);
+  const double slope = std::tan(glm::radians(fov) / 2) * 0.72;
+  double distance = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const DVec3 signs(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    const DVec3 p = signs * half_size;
+    const double half_extent = std::max(std::abs(glm::dot(p, up)), std::abs(glm::dot(p, right)) * 9 / 16);
+    distance = std::max(distance, glm::dot(p, view) + half_extent / slope);
+  }
+  return distance;
+}
+
 }  // namespace
 
 std::string studio_text(const Mesh& mesh, const std::string& mesh_name) {
   const Bounds bounds = bounds_of(mesh);
   const DVec3 center = 0.5 * (bounds.low + bounds.high);
   const double radius = 0.5 * glm::length(bounds.high - bounds.low);
-  // The bounding sphere fills the height but for a tenth.
   const double fov = 30;
-  const double distance = 1.1 * radius / std::sin(glm::radians(fov) / 2);
+  const DVec3 view = glm::normalize(DVec3(0.45, 0.4, 1));
+  const double distance = framing_distance(0.5 * (bounds.high - bounds.low), view, fov);
   const DVec3 ground(center.x, bounds.low.y - 1.001 * radius, center.z);
   std::ostringstream text;
-  text << "[camera]\nlook_from = " << triple(center + distance * glm::normalize(DVec3(0.45, 0.4, 1)))
+  text << "[camera]\nlook_from = " << triple(center + distance * view)
        << "\nlook_at = " << triple(center) << "\nvertical_fov = " << fov
        << "\n[environment]\nradiance = [0.15, 0.17, 0.2]\n"
        << "[[light]]\nname = \"key\"\ntype = \"rectangle\"\ncenter = " << triple(center + 4 * radius * direction(40, 40))
