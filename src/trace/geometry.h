@@ -47,6 +47,7 @@ class Geometry {
     std::variant<SphereBody, BoxBody, SlabBody, MeshBody> shape;
     DVec3 center;
     Real size;
+    bool closed;   // it holds a medium: its surface has an inside
     bool matched;  // light passes it unscattered
     Rgb sigma_t;
   };

@@ -115,6 +115,38 @@ TEST_CASE("a concave mesh lets light through with the length inside it, wall by 
   }
 }
 
+TEST_CASE("a ray that skims a mesh's rim never takes itself to be inside") {
+  Geometry geometry(one_object(kKnot, {}, Boundary::matched), 1);
+  int hits = 0;
+  for (std::uint32_t i = 0; i < 300000; ++i) {
+    Random random = stream(4, 0, i);
+    // At corners and at the middles of edges, nearly tangentially: where a ray may slip between two triangles.
+    const Triangle& t = kKnot->triangles[random.next_bits() % kKnot->triangles.size()];
+    const DVec3& a = kKnot->positions[t[0]];
+    const DVec3& b = kKnot->positions[t[1]];
+    const DVec3 target = random.next() < Real(0.5) ? a : 0.5 * (a + b);
+    const Vec3 normal(glm::normalize(glm::cross(b - a, kKnot->positions[t[2]] - a)));
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    const Vec3 any = sample_sphere({u1, u2});
+    const Vec3 d = glm::normalize(any - (1 - Real(1e-3) * random.next()) * glm::dot(any, normal) * normal);
+    const auto hit = geometry.closest_hit({target - 4.0 * DVec3(d), d});
+    if (!hit) continue;
+    ++hits;
+    REQUIRE(hit->entering);
+  }
+  CHECK(hits > 100000);
+}
+
+TEST_CASE("a camera inside a body sees its far side") {
+  for (const auto& shape : std::vector<decltype(Object::shape)>{SphereShape{}, BoxShape{}, kKnot}) {
+    const Geometry geometry(one_object(shape, {}, Boundary::matched), 1);
+    const auto hit = geometry.closest_hit({{0.8, 0, 0}, {0, 0, 1}});
+    REQUIRE(hit);
+    CHECK_FALSE(hit->entering);
+  }
+}
+
 TEST_CASE("an unbounded slab is met far from its middle, on its very face") {
   const Geometry geometry(one_object(SlabShape{}, {{0, -1, 0}, DVec3(0), DVec3(1)}, Boundary::diffuse), 1);
   const auto hit = geometry.closest_hit({{0, 1, 0}, glm::normalize(Vec3(1, Real(-1e-4), 0))});
