@@ -46,8 +46,9 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
   }
   const std::vector<std::string_view> known(names.begin(), names.end());
   const std::string nearest = nearest_name(word, known);
-  throw Error(Fault::input, "there is no verb '" + word + "'; " +
-                                (nearest.empty() ? "known: " + list_names(known) : "did you mean '" + nearest + "'?"));
+  throw Error(Fault::input,
+              "there is no verb '" + word + "'; " +
+                  (nearest.empty() ? "known: " + list_names(known) : "did you mean '" + nearest + "'?"));
 }
 
 }  // namespace

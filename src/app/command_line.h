@@ -8,8 +8,8 @@
 
 namespace meander {
 
-/// Parses the arguments and runs the verb. Returns the exit code: 0 fine, 1 a comparison that failed. Errors: Error
-/// for wrong use, and whatever the verb throws.
+/// Parses the arguments and runs the verb. Returns the exit code: 0 fine, 1 a comparison that failed. Errors:
+/// Error for wrong use, and whatever the verb throws.
 [[nodiscard]] int run_command_line(int argc, char** argv);
 
 /// What a verb does once the command line is parsed; returns the exit code.

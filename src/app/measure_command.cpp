@@ -47,14 +47,16 @@ double parse_number(const std::string& option, const std::string& text) {
 std::vector<double> parse_range(const std::string& option, const std::string& text) {
   const auto parts = CLI::detail::split(text, ':');
   if (parts.size() == 1) return {parse_number(option, text)};
-  if (parts.size() != 3) refuse(option + " is '" + text + "', but must be a number, or a range FIRST:LAST:COUNT");
+  if (parts.size() != 3)
+    refuse(option + " is '" + text + "', but must be a number, or a range FIRST:LAST:COUNT");
   const double first = parse_number(option, parts[0]);
   const double last = parse_number(option, parts[1]);
   const double count = parse_number(option, parts[2]);
   if (count < 2 || count > 10000 || count != std::floor(count))
     refuse(option + ": a range has 2 to 10000 values, not " + parts[2]);
   std::vector<double> values;
-  for (int i = 0; i < static_cast<int>(count); ++i) values.push_back(first + (last - first) * i / (count - 1));
+  for (int i = 0; i < static_cast<int>(count); ++i)
+    values.push_back(first + (last - first) * i / (count - 1));
   return values;
 }
 
@@ -70,18 +72,21 @@ Incidence parse_incidence(const std::string& text) {
   if (text == "diffuse") return {true, 1};
   const std::string prefix = "cosine=";
   double cosine = 0;
-  if (text.starts_with(prefix) && CLI::detail::lexical_cast(text.substr(prefix.size()), cosine) && cosine > 0 && cosine <= 1)
+  if (text.starts_with(prefix) && CLI::detail::lexical_cast(text.substr(prefix.size()), cosine) &&
+      cosine > 0 && cosine <= 1)
     return {false, cosine};
   refuse("--incidence is '" + text + "', but must be normal, diffuse, or cosine=MU with MU in (0, 1]");
 }
 
 // The albedos asked for, whichever way they were given.
 std::vector<double> albedos_of(const MeasureOptions& o, double g) {
-  const int given = !o.albedo.empty() + (o.sigma_a.has_value() || o.sigma_s.has_value()) + o.color.has_value();
-  if (given > 1) refuse("give the medium by --albedo, by --sigma-s with --sigma-a, or by --color, not by two of them");
+  const int given =
+      !o.albedo.empty() + (o.sigma_a.has_value() || o.sigma_s.has_value()) + o.color.has_value();
+  if (given > 1)
+    refuse("give the medium by --albedo, by --sigma-s with --sigma-a, or by --color, not by two of them");
   if (o.color) {
     require_in("--color", *o.color, 0, 1);
-    const Inversion inversion = o.inversion == "chiang"          ? Inversion::chiang
+    const Inversion inversion = o.inversion == "chiang"         ? Inversion::chiang
                                 : o.inversion == "van_de_hulst" ? Inversion::van_de_hulst
                                                                 : Inversion::exact;
     return {double{medium_from_color(DVec3(*o.color), DVec3(1), g, inversion).albedo.x}};
@@ -189,7 +194,8 @@ void add_measure_command(CLI::App& app, Action& action) {
   verb->add_option("--incidence", o->incidence, "normal, cosine=MU or diffuse (normal)");
   verb->add_option("--estimator", o->estimator, "analog or implicit (implicit)")
       ->check(CLI::IsMember({"analog", "implicit"}));
-  verb->add_option("--walks", o->walks, "number of walks (10^6)")->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 50));
+  verb->add_option("--walks", o->walks, "number of walks (10^6)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 50));
   verb->add_option("--seed", o->seed, "random seed (0)");
   verb->add_option("--threads", o->threads, "threads (all)")->check(CLI::Range(1, 1024));
   verb->add_flag("--json", o->json, "print JSON");

@@ -46,12 +46,14 @@ std::string measurement_text(const MeasuredCase& measured) {
   std::string text;
   char line[160];
   for (const Quantity& q : quantities_of(measured)) {
-    std::snprintf(line, sizeof line, "%-26s %.7f +- %.7f\n", q.name, q.moments->mean, q.moments->standard_error());
+    std::snprintf(line, sizeof line, "%-26s %.7f +- %.7f\n", q.name, q.moments->mean,
+                  q.moments->standard_error());
     text += line;
   }
   const Measurement& r = measured.result;
-  std::snprintf(line, sizeof line, "%llu walks, %llu steps, %.2f s\n", static_cast<unsigned long long>(r.walks),
-                static_cast<unsigned long long>(r.steps), r.seconds);
+  std::snprintf(line, sizeof line, "%llu walks, %llu steps, %.2f s\n",
+                static_cast<unsigned long long>(r.walks), static_cast<unsigned long long>(r.steps),
+                r.seconds);
   return text + line;
 }
 
@@ -77,11 +79,13 @@ std::string measurement_json(const std::vector<MeasuredCase>& cases, bool list) 
 std::string measurement_csv(const std::vector<MeasuredCase>& cases) {
   std::ostringstream text;
   text << "albedo,g,tau";
-  for (const Quantity& q : quantities_of(cases.front())) text << ',' << q.name << ',' << q.name << "_standard_error";
+  for (const Quantity& q : quantities_of(cases.front()))
+    text << ',' << q.name << ',' << q.name << "_standard_error";
   text << ",walks,steps,seconds\n";
   for (const MeasuredCase& m : cases) {
     text << exact(m.job.albedo) << ',' << exact(m.job.g) << ',' << exact(size_of(m.job));
-    for (const Quantity& q : quantities_of(m)) text << ',' << exact(q.moments->mean) << ',' << exact(q.moments->standard_error());
+    for (const Quantity& q : quantities_of(m))
+      text << ',' << exact(q.moments->mean) << ',' << exact(q.moments->standard_error());
     text << ',' << m.result.walks << ',' << m.result.steps << ',' << exact(m.result.seconds) << '\n';
   }
   return text.str();

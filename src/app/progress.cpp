@@ -14,7 +14,8 @@ ProgressReport::ProgressReport(const Budget& budget, bool quiet)
 
 double ProgressReport::fraction(const Rendering& rendering) const {
   double part = 0;
-  if (budget_.spp) part = std::max(part, static_cast<double>(rendering.spp) / static_cast<double>(*budget_.spp));
+  if (budget_.spp)
+    part = std::max(part, static_cast<double>(rendering.spp) / static_cast<double>(*budget_.spp));
   if (budget_.seconds) part = std::max(part, rendering.seconds / *budget_.seconds);
   // Noise falls as the root of the samples.
   if (budget_.error && rendering.noise > 0)

@@ -37,14 +37,16 @@ int capture_png(const RenderOptions& options, const std::optional<double>& expos
 }  // namespace
 
 void add_render_command(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("render", "trace a scene into a linear OpenEXR image with its variance");
+  CLI::App* verb =
+      app.add_subcommand("render", "trace a scene into a linear OpenEXR image with its variance");
   const auto options = std::make_shared<RenderOptions>();
   add_render_options(*verb, *options);
   verb->callback([options, &action] { action = [options] { return render_exr(*options); }; });
 }
 
 void add_capture_command(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("capture", "trace a scene and draw it through OpenGL, off-screen, into a PNG");
+  CLI::App* verb =
+      app.add_subcommand("capture", "trace a scene and draw it through OpenGL, off-screen, into a PNG");
   const auto options = std::make_shared<RenderOptions>();
   const auto exposure = std::make_shared<std::optional<double>>();
   add_render_options(*verb, *options);

@@ -1,5 +1,6 @@
 #include "app/render_options.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
@@ -35,7 +36,7 @@ Job make_job(const RenderOptions& options, Scene scene) {
   if (options.width) scene.film.width = *options.width;
   if (options.height) scene.film.height = *options.height;
   Job job;
-  job.threads = options.threads > 0 ? options.threads : hardware_threads();
+  job.threads = options.threads > 0 ? std::min(options.threads, hardware_threads()) : hardware_threads();
   job.crop = crop_of(options, scene.film);
   job.seed = options.seed;
   job.first_sample = options.first_sample;
@@ -54,13 +55,17 @@ void add_render_options(CLI::App& verb, RenderOptions& o) {
       ->check(at_least(1))
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
   verb.add_option("--time", o.seconds, "seconds to render for")->check(greater_than(0));
-  verb.add_option("--error,--noise", o.error, "relative noise to reach, such as 0.01")->check(greater_than(0));
+  verb.add_option("--error,--noise", o.error, "relative noise to reach, such as 0.01")
+      ->check(greater_than(0));
   verb.add_option("--seed", o.seed, "random seed (0)");
   verb.add_option("--first-sample", o.first_sample, "number of the first sample (0)");
-  verb.add_option("--threads", o.threads, "threads (all)")->check(CLI::Range(1, 1024));
+  verb.add_option("--threads", o.threads, "threads (all that the machine has, and at most those)")
+      ->check(CLI::Range(1, 1024));
   verb.add_option("--width", o.width, "film width, pixels")->check(CLI::Range(1, 16384));
   verb.add_option("--height", o.height, "film height, pixels")->check(CLI::Range(1, 16384));
-  verb.add_option("--crop", o.crop, "X0,Y0,X1,Y1: render this rectangle of the film only")->delimiter(',')->expected(4);
+  verb.add_option("--crop", o.crop, "X0,Y0,X1,Y1: render this rectangle of the film only")
+      ->delimiter(',')
+      ->expected(4);
   verb.add_option("--estimator", o.estimator, "analog or implicit (implicit)")
       ->check(CLI::IsMember({"analog", "implicit"}));
   verb.add_option("--set", o.edits, "PATH=VALUE: any scene value, such as material.wax.g=0.4 (repeatable)")
@@ -82,7 +87,8 @@ FinishedRun run_render(const RenderOptions& options, std::span<const std::string
   const std::atomic<bool>& stop = watch_interrupts();
   const Budget budget = budget_of(options);
   ProgressReport progress(budget, options.quiet);
-  run.rendering = render(run.job, budget, stop, [&](const Rendering& rendering) { progress.show(rendering); });
+  run.rendering =
+      render(run.job, budget, stop, [&](const Rendering& rendering) { progress.show(rendering); });
   progress.finish();
   run.interrupted = stop;
   if (run.rendering.spp == 0)

@@ -39,10 +39,11 @@ struct FinishedRun {
   bool interrupted = false;
 };
 
-/// Checks the outputs, loads the scene, renders with progress, and writes --stats. `extensions` are those that the
-/// output may have. Errors: Error(input) for anything wrong with the options or the scene; Error(runtime) when it was
-/// interrupted before the first pass was complete.
-[[nodiscard]] FinishedRun run_render(const RenderOptions& options, std::span<const std::string_view> extensions);
+/// Checks the outputs, loads the scene, renders with progress, and writes --stats. `extensions` are those
+/// that the output may have. Errors: Error(input) for anything wrong with the options or the scene;
+/// Error(runtime) when it was interrupted before the first pass was complete.
+[[nodiscard]] FinishedRun run_render(const RenderOptions& options,
+                                     std::span<const std::string_view> extensions);
 
 /// The closing line of a run: what was written, and what it reached.
 void print_summary(const RenderOptions& options, const FinishedRun& run);

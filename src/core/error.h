@@ -32,8 +32,8 @@ class Error : public std::runtime_error {
   Fault fault_;
 };
 
-/// The name among `known` that is nearest to `name` in edit distance; empty when none is within a third of its
-/// length plus one.
+/// The name among `known` that is nearest to `name` in edit distance; empty when none is within a third of
+/// its length plus one.
 [[nodiscard]] std::string nearest_name(const std::string& name, std::span<const std::string_view> known);
 
 /// The names in one line, separated by commas: what an error message lists as allowed.

@@ -30,12 +30,14 @@ Parametrisation find_parametrisation(const TomlTable& table) {
     if (!table.has(member.key)) continue;
     if (!first) first = &member;
     if (member.parametrisation != first->parametrisation)
-      throw Error(table.place(member.key), "'" + std::string(member.key) + "' and '" + std::string(first->key) +
+      throw Error(table.place(member.key), "'" + std::string(member.key) + "' and '" +
+                                               std::string(first->key) +
                                                "' describe the medium twice; use color + radius, or albedo + "
                                                "mean_free_path, or sigma_s + sigma_a");
   }
   if (!first)
-    throw Error(table.place(), table.where() + " needs color + radius, or albedo + mean_free_path, or sigma_s + sigma_a");
+    throw Error(table.place(),
+                table.where() + " needs color + radius, or albedo + mean_free_path, or sigma_s + sigma_a");
   return first->parametrisation;
 }
 
@@ -73,8 +75,10 @@ std::optional<Parametrisation> parametrisation_of(std::string_view key) {
 
 Material read_material(TomlTable& table, double millimetres_per_unit) {
   const std::size_t type = table.choice("type", kTypes).value_or(0);
-  if (type == 1) return {{}, DiffuseMaterial{Rgb(table.triple("color", kUnitInterval, true).value_or(DVec3(0.5)))}};
-  if (type == 2) return {{}, EmissiveMaterial{Rgb(table.triple("radiance", kNotNegative, true).value_or(DVec3(1)))}};
+  if (type == 1)
+    return {{}, DiffuseMaterial{Rgb(table.triple("color", kUnitInterval, true).value_or(DVec3(0.5)))}};
+  if (type == 2)
+    return {{}, EmissiveMaterial{Rgb(table.triple("radiance", kNotNegative, true).value_or(DVec3(1)))}};
   TranslucentMaterial material;
   material.medium = read_medium(table, millimetres_per_unit);
   material.boundary = static_cast<Boundary>(table.choice("boundary", kBoundaries).value_or(0));
@@ -95,7 +99,8 @@ void convert_material(toml::table& table, Parametrisation target, const std::str
     return;
   }
   if (!(sigma_t.x > 0 && sigma_t.y > 0 && sigma_t.z > 0))
-    throw Error(Place{file, 0, 0}, "a medium with sigma_t = 0 has no mean free path: set sigma_s and sigma_a instead");
+    throw Error(Place{file, 0, 0},
+                "a medium with sigma_t = 0 has no mean free path: set sigma_s and sigma_a instead");
   if (target == Parametrisation::albedo) {
     set_triple(table, "albedo", albedo);
     set_triple(table, "mean_free_path", 1.0 / sigma_t);

@@ -28,7 +28,8 @@ void read_camera(TomlTable table, Camera& camera) {
   camera.look_at = table.triple("look_at", kAnyNumber, false).value_or(camera.look_at);
   camera.up = table.triple("up", kAnyNumber, false).value_or(camera.up);
   if (table.has("vertical_fov") && table.has("orthographic_height"))
-    throw Error(table.place("orthographic_height"), "a camera has vertical_fov or orthographic_height, not both");
+    throw Error(table.place("orthographic_height"),
+                "a camera has vertical_fov or orthographic_height, not both");
   camera.vertical_fov = table.number("vertical_fov", kFieldOfView).value_or(camera.vertical_fov);
   camera.orthographic_height = table.number("orthographic_height", kPositive);
   table.finish();
@@ -68,7 +69,8 @@ RectangleLight read_rectangle(TomlTable& table) {
   if (!(glm::length(view) > 0)) throw Error(table.place("look_at"), "'look_at' must differ from 'center'");
   if (glm::length(glm::cross(glm::normalize(view), light.up)) > 1e-9 * glm::length(light.up)) return light;
   // A light that looks straight up or down is common; any horizontal then serves as its up.
-  if (table.has("up")) throw Error(table.place("up"), "'up' must not be zero or parallel to the light's view");
+  if (table.has("up"))
+    throw Error(table.place("up"), "'up' must not be zero or parallel to the light's view");
   light.up = {0, 0, -1};
   return light;
 }
@@ -95,7 +97,8 @@ Light read_light(TomlTable table, std::size_t index) {
     DirectionalLight sun;
     sun.direction = table.required(table.triple("direction", kAnyNumber, false), "direction");
     sun.irradiance = Rgb(table.triple("irradiance", kNotNegative, true).value_or(DVec3(1)));
-    if (!(glm::length(sun.direction) > 0)) throw Error(table.place("direction"), "'direction' must not be zero");
+    if (!(glm::length(sun.direction) > 0))
+      throw Error(table.place("direction"), "'direction' must not be zero");
     light.shape = sun;
   }
   table.finish();
@@ -158,7 +161,8 @@ class SceneReader {
     TomlTable table(raw, path_, "[[material]]");
     const std::string name = table.required(table.text("name"), "name");
     for (const Material& other : file_.scene.materials)
-      if (other.name == name) throw Error(table.place("name"), "there are two materials named '" + name + "'");
+      if (other.name == name)
+        throw Error(table.place("name"), "there are two materials named '" + name + "'");
     Material material = read_material(table, millimetres_per_unit);
     material.name = name;
     table.finish();
@@ -173,8 +177,9 @@ class SceneReader {
       names.push_back(materials[i].name);
     }
     const std::string nearest = nearest_name(name, names);
-    throw Error(place, "there is no material named '" + name + "'" +
-                           (nearest.empty() ? "; known: " + list_names(names) : "; did you mean '" + nearest + "'?"));
+    throw Error(
+        place, "there is no material named '" + name + "'" +
+                   (nearest.empty() ? "; known: " + list_names(names) : "; did you mean '" + nearest + "'?"));
   }
 
   std::shared_ptr<const Mesh> read_mesh(TomlTable& table, bool translucent) {
@@ -216,7 +221,8 @@ class SceneReader {
 
 std::string read_text(const std::string& path) {
   std::error_code code;
-  if (std::filesystem::is_directory(path, code)) throw Error(Place{path, 0, 0}, "is a folder, not a scene file");
+  if (std::filesystem::is_directory(path, code))
+    throw Error(Place{path, 0, 0}, "is a folder, not a scene file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Error(Place{path, 0, 0}, "cannot open: No such file or directory");
   std::ostringstream text;
@@ -228,7 +234,8 @@ std::string read_text(const std::string& path) {
 
 SceneFile load_scene(const std::string& path, std::span<const std::string> edits) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   std::optional<MeshFile> mesh;  // loaded once, for the studio's measures and for its object
   if (extension != ".toml") mesh = load_mesh(path, false);
   try {

@@ -14,8 +14,8 @@ struct SceneFile {
   std::vector<std::string> warnings;  // one line each
 };
 
-/// Reads a scene, applying the edits (`PATH=VALUE`, see scene_edit.h) first. `path` ends in .toml, or in the name of a
-/// mesh format. Errors: Error with file, line and column.
+/// Reads a scene, applying the edits (`PATH=VALUE`, see scene_edit.h) first. `path` ends in .toml, or in the
+/// name of a mesh format. Errors: Error with file, line and column.
 [[nodiscard]] SceneFile load_scene(const std::string& path, std::span<const std::string> edits);
 
 }  // namespace meander

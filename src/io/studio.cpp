@@ -38,8 +38,8 @@ DVec3 direction(double azimuth, double elevation) {
   return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
 }
 
-// How far along `view` a camera must stand from a box's centre for the box to fill the height, or 16:9 of it across,
-// but for a margin.
+// How far along `view` a camera must stand from a box's centre for the box to fill the height, or 16:9 of it
+// across, but for a margin.
 double framing_distance(const DVec3& half_size, const DVec3& view, double fov) {
   const DVec3 right = glm::normalize(glm::cross(DVec3(0, 1, 0), view));
   const DVec3 up = glm::cross(view, right);
@@ -65,12 +65,11 @@ std::string studio_text(const Mesh& mesh, const std::string& mesh_name) {
   const double distance = framing_distance(0.5 * (bounds.high - bounds.low), view, fov);
   const DVec3 ground(center.x, bounds.low.y - 1.001 * radius, center.z);
   std::ostringstream text;
-  text << "[camera]\nlook_from = " << triple(center + distance * view)
-       << "\nlook_at = " << triple(center) << "\nvertical_fov = " << fov
-       << "\n[environment]\nradiance = [0.15, 0.17, 0.2]\n"
-       << "[[light]]\nname = \"key\"\ntype = \"rectangle\"\ncenter = " << triple(center + 4 * radius * direction(40, 40))
-       << "\nlook_at = " << triple(center) << "\nwidth = " << number(2 * radius) << "\nheight = " << number(2 * radius)
-       << "\nradiance = 5\n"
+  text << "[camera]\nlook_from = " << triple(center + distance * view) << "\nlook_at = " << triple(center)
+       << "\nvertical_fov = " << fov << "\n[environment]\nradiance = [0.15, 0.17, 0.2]\n"
+       << "[[light]]\nname = \"key\"\ntype = \"rectangle\"\ncenter = "
+       << triple(center + 4 * radius * direction(40, 40)) << "\nlook_at = " << triple(center)
+       << "\nwidth = " << number(2 * radius) << "\nheight = " << number(2 * radius) << "\nradiance = 5\n"
        << "[[light]]\nname = \"back\"\ntype = \"rectangle\"\ncenter = "
        << triple(center + 4 * radius * direction(200, 25)) << "\nlook_at = " << triple(center)
        << "\nwidth = " << number(2.5 * radius) << "\nheight = " << number(2.5 * radius)

@@ -8,13 +8,19 @@ namespace {
 
 std::string type_name(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "a list";
-    case toml::node_type::string: return "the text '" + std::string(node.value_or<std::string_view>("")) + "'";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "the text '" + std::string(node.value_or<std::string_view>("")) + "'";
     case toml::node_type::integer:
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "true or false";
-    default: return "a date or time";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
   }
 }
 
@@ -52,8 +58,8 @@ double TomlTable::checked(const toml::node& node, std::string_view key, const Ra
   if (!node.is_number()) wrong_type(node, key, "a number");
   const double value = *node.value<double>();
   if (!range.contains(value))
-    throw Error(place_of(node, file_), "'" + std::string(key) + "' is " + number_text(value) + ", but must be " +
-                                           std::string(range.text));
+    throw Error(place_of(node, file_), "'" + std::string(key) + "' is " + number_text(value) +
+                                           ", but must be " + std::string(range.text));
   return value;
 }
 
@@ -84,12 +90,14 @@ std::optional<std::string> TomlTable::text(std::string_view key) {
   return node->value<std::string>();
 }
 
-std::optional<std::size_t> TomlTable::choice(std::string_view key, std::span<const std::string_view> allowed) {
+std::optional<std::size_t> TomlTable::choice(std::string_view key,
+                                             std::span<const std::string_view> allowed) {
   const auto value = text(key);
   if (!value) return std::nullopt;
   for (std::size_t i = 0; i < allowed.size(); ++i)
     if (allowed[i] == *value) return i;
-  throw Error(place(key), "'" + std::string(key) + "' is '" + *value + "', but must be one of: " + list_names(allowed));
+  throw Error(place(key),
+              "'" + std::string(key) + "' is '" + *value + "', but must be one of: " + list_names(allowed));
 }
 
 std::optional<DVec3> TomlTable::triple(std::string_view key, const Range& range, bool or_single) {
@@ -97,7 +105,8 @@ std::optional<DVec3> TomlTable::triple(std::string_view key, const Range& range,
   if (!node) return std::nullopt;
   if (or_single && node->is_number()) return DVec3(checked(*node, key, range));
   const toml::array* list = node->as_array();
-  const std::string_view wanted = or_single ? "a number or a list of three numbers" : "a list of three numbers";
+  const std::string_view wanted =
+      or_single ? "a number or a list of three numbers" : "a list of three numbers";
   if (!list) wrong_type(*node, key, wanted);
   if (list->size() != 3)
     throw Error(place(key), "'" + std::string(key) + "' must be " + std::string(wanted) + ", not a list of " +
@@ -129,9 +138,11 @@ void TomlTable::finish() const {
     const std::string name(key.str());
     const std::string nearest = nearest_name(name, asked_);
     Place at = place_of(node, file_);
-    if (at.line > 0) at = {file_, static_cast<int>(key.source().begin.line), static_cast<int>(key.source().begin.column)};
-    throw Error(at, "unknown key '" + name + "' in " + where_ +
-                        (nearest.empty() ? "; known: " + list_names(asked_) : "; did you mean '" + nearest + "'?"));
+    if (at.line > 0)
+      at = {file_, static_cast<int>(key.source().begin.line), static_cast<int>(key.source().begin.column)};
+    throw Error(
+        at, "unknown key '" + name + "' in " + where_ +
+                (nearest.empty() ? "; known: " + list_names(asked_) : "; did you mean '" + nearest + "'?"));
   }
 }
 

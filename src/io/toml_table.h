@@ -1,12 +1,13 @@
-// One table of a scene file, read key by key: each value is checked where it is read, and a key that nobody asked for
-// is an error which suggests the nearest one that exists. Every error names the file, line and column.
+// One table of a scene file, read key by key: each value is checked where it is read, and a key that nobody
+// asked for is an error which suggests the nearest one that exists. Every error names the file, line and
+// column.
 #pragma once
 
+#include <toml++/toml.h>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <vector>
 
 #include "core/error.h"
@@ -48,7 +49,8 @@ class TomlTable {
   [[nodiscard]] std::optional<bool> boolean(std::string_view key);
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
   /// The index of the text among the allowed ones.
-  [[nodiscard]] std::optional<std::size_t> choice(std::string_view key, std::span<const std::string_view> allowed);
+  [[nodiscard]] std::optional<std::size_t> choice(std::string_view key,
+                                                  std::span<const std::string_view> allowed);
   /// Three numbers; with `or_single`, one number stands for three equal ones.
   [[nodiscard]] std::optional<DVec3> triple(std::string_view key, const Range& range, bool or_single);
   /// An inner table, `[key]` in messages.

@@ -21,8 +21,8 @@ struct Frame {
   }
 };
 
-/// Frame about a unit vector, without a branch (Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin 2017,
-/// "Building an Orthonormal Basis, Revisited", listing 3).
+/// Frame about a unit vector, without a branch (Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin
+/// 2017, "Building an Orthonormal Basis, Revisited", listing 3).
 [[nodiscard]] inline Frame make_frame(const Vec3& n) noexcept {
   const Real sign = std::copysign(Real(1), n.z);
   const Real a = -1 / (sign + n.z);

@@ -8,20 +8,22 @@
 
 namespace meander {
 
-/// T(s) = exp(-sigma s), in [0, 1]; sigma >= 0 and s >= 0 in inverse units. 1 in a vacuum, even over an infinite
-/// distance.
+/// T(s) = exp(-sigma s), in [0, 1]; sigma >= 0 and s >= 0 in inverse units. 1 in a vacuum, even over an
+/// infinite distance.
 [[nodiscard]] inline Real transmittance(Real sigma, Real s) noexcept {
   return sigma > 0 ? std::exp(-sigma * s) : Real(1);
 }
 
-/// Distance with cdf xi in [0, 1): -ln(1 - xi) / sigma. +infinity in a vacuum. 1 - xi is exact on the generator's grid
-/// and never 0, which xi itself can be.
+/// Distance with cdf xi in [0, 1): -ln(1 - xi) / sigma. +infinity in a vacuum. 1 - xi is exact on the
+/// generator's grid and never 0, which xi itself can be.
 [[nodiscard]] inline Real sample_free_path(Real sigma, Real xi) noexcept {
   return sigma > 0 ? -std::log(Real(1) - xi) / sigma : std::numeric_limits<Real>::infinity();
 }
 
 /// sigma exp(-sigma s), per unit length.
-[[nodiscard]] inline Real pdf_free_path(Real sigma, Real s) noexcept { return sigma * transmittance(sigma, s); }
+[[nodiscard]] inline Real pdf_free_path(Real sigma, Real s) noexcept {
+  return sigma * transmittance(sigma, s);
+}
 
 /// The cdf 1 - exp(-sigma s): the xi that gives s.
 [[nodiscard]] inline Real invert_free_path(Real sigma, Real s) noexcept {

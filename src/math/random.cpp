@@ -13,8 +13,8 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
     const std::uint64_t product1 = std::uint64_t{kMultiplier1} * counter[2];
     const auto high0 = static_cast<std::uint32_t>(product0 >> 32);
     const auto high1 = static_cast<std::uint32_t>(product1 >> 32);
-    counter = {high1 ^ counter[1] ^ key[0], static_cast<std::uint32_t>(product1),
-               high0 ^ counter[3] ^ key[1], static_cast<std::uint32_t>(product0)};
+    counter = {high1 ^ counter[1] ^ key[0], static_cast<std::uint32_t>(product1), high0 ^ counter[3] ^ key[1],
+               static_cast<std::uint32_t>(product0)};
     key = {key[0] + kWeyl0, key[1] + kWeyl1};
   }
   return counter;

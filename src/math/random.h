@@ -1,5 +1,5 @@
-// Addressed randomness: a stream is named by (seed, pixel, sample) and never stored across samples. 32-bit arithmetic
-// alone, so that a vector version gives the same numbers.
+// Addressed randomness: a stream is named by (seed, pixel, sample) and never stored across samples. 32-bit
+// arithmetic alone, so that a vector version gives the same numbers.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace meander {
 
-/// Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel Random Numbers: As Easy as 1, 2, 3"): a bijection of the
-/// 128-bit counter for each 64-bit key, so that distinct addresses never share a state.
+/// Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel Random Numbers: As Easy as 1, 2, 3"): a
+/// bijection of the 128-bit counter for each 64-bit key, so that distinct addresses never share a state.
 [[nodiscard]] std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                                   std::array<std::uint32_t, 2> key) noexcept;
 
-/// xoshiro128++ 1.0 (Blackman & Vigna 2021, "Scrambled Linear Pseudorandom Number Generators"). The state must not be
-/// all zero.
+/// xoshiro128++ 1.0 (Blackman & Vigna 2021, "Scrambled Linear Pseudorandom Number Generators"). The state
+/// must not be all zero.
 class Random {
  public:
   explicit Random(const std::array<std::uint32_t, 4>& state) noexcept : s_(state) {}
@@ -32,8 +32,8 @@ class Random {
     return result;
   }
 
-  /// Uniform on the grid k 2^-24, k = 0 … 2^24 - 1: 1 - next() is exact in float and never 0. The grid caps one free
-  /// flight at 16.6 mean free paths.
+  /// Uniform on the grid k 2^-24, k = 0 … 2^24 - 1: 1 - next() is exact in float and never 0. The grid caps
+  /// one free flight at 16.6 mean free paths.
   [[nodiscard]] Real next() noexcept { return static_cast<Real>(next_bits() >> 8) * Real(0x1p-24); }
 
  private:

@@ -39,7 +39,8 @@ Vec3 entry_direction(const MeasureJob& job, Random& random) noexcept {
 template <World W>
 bool measure_walk(const MeasureJob& job, const W& world, Real top, Random& random, Tally tally,
                   Measurement& result) noexcept {
-  const WalkModel model{{Rgb(1), Rgb(static_cast<Real>(job.albedo)), static_cast<Real>(job.g)}, job.estimator};
+  const WalkModel model{{Rgb(1), Rgb(static_cast<Real>(job.albedo)), static_cast<Real>(job.g)},
+                        job.estimator};
   Walker walker;
   walker.position = {0, 0, top};
   walker.direction = entry_direction(job, random);
@@ -69,14 +70,16 @@ Measurement measure_block(const MeasureJob& job, const W& world, Real top, std::
   const std::uint64_t last = std::min(first + kBlock, job.walks);
   for (std::uint64_t walk = first; walk < last; ++walk) {
     if (stop.load(std::memory_order_relaxed)) break;
-    Random random = stream(job.seed, static_cast<std::uint32_t>(walk >> 32), static_cast<std::uint32_t>(walk));
+    Random random =
+        stream(job.seed, static_cast<std::uint32_t>(walk >> 32), static_cast<std::uint32_t>(walk));
     Tally tally{stop};
     if (!measure_walk(job, world, top, random, tally, result)) break;
   }
   return result;
 }
 
-Measurement measure_block(const MeasureJob& job, std::uint64_t first, const std::atomic<bool>& stop) noexcept {
+Measurement measure_block(const MeasureJob& job, std::uint64_t first,
+                          const std::atomic<bool>& stop) noexcept {
   if (const auto* slab = std::get_if<MeasuredSlab>(&job.shape))
     return measure_block(job, SlabWorld{static_cast<Real>(slab->tau)}, 0, first, stop);
   if (const auto* sphere = std::get_if<MeasuredSphere>(&job.shape)) {

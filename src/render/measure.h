@@ -1,5 +1,5 @@
-// Reflectance, transmittance and absorption of exact shapes, with error bars: the same walk that renders, in units of
-// the mean free path.
+// Reflectance, transmittance and absorption of exact shapes, with error bars: the same walk that renders, in
+// units of the mean free path.
 #pragma once
 
 #include <atomic>
@@ -37,8 +37,8 @@ struct MeasureJob {
   int threads = 1;
 };
 
-/// Per incident flux, as the mean over the walks; totals include the unscattered part. For the sphere, reflectance is
-/// all that comes out. `mean_path_length` is in mean free paths.
+/// Per incident flux, as the mean over the walks; totals include the unscattered part. For the sphere,
+/// reflectance is all that comes out. `mean_path_length` is in mean free paths.
 struct Measurement {
   Moments reflectance;
   Moments transmittance;
@@ -55,8 +55,8 @@ struct Measurement {
   void merge(const Measurement& other) noexcept;
 };
 
-/// Runs the walks; the result depends on nothing but the job's numbers, not on its threads. When `stop` becomes true
-/// only what whole blocks of walks had found, in order, is returned.
+/// Runs the walks; the result depends on nothing but the job's numbers, not on its threads. When `stop`
+/// becomes true only what whole blocks of walks had found, in order, is returned.
 [[nodiscard]] Measurement measure(const MeasureJob& job, const std::atomic<bool>& stop);
 
 }  // namespace meander

@@ -4,9 +4,11 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+
 #ifdef MEANDER_TSAN
-// TBB itself is not instrumented, so this file is not either, and it says what TBB guarantees: what was written before
-// the loop is seen in it, and what the loop wrote is seen after it.
+// TBB itself is not instrumented, so this file is not either, and it says what TBB guarantees: what was
+// written before the loop is seen in it, and what the loop wrote is seen after it.
 extern "C" void __tsan_acquire(void*);
 extern "C" void __tsan_release(void*);
 #endif
@@ -26,8 +28,10 @@ void acquire(char*) {}
 
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& body) {
   namespace tbb = oneapi::tbb;
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
+  const int used = std::min(threads, hardware_threads());  // TBB warns of more
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(used));
+  tbb::task_arena arena(used);
   char begun = 0;
   char ended = 0;
   release(&begun);

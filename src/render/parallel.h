@@ -6,8 +6,8 @@
 
 namespace meander {
 
-/// Calls body(i) once for every i < count, on at most `threads` threads (>= 1), and returns when all have ended. The
-/// order is unspecified; body must not throw.
+/// Calls body(i) once for every i < count, on at most `threads` threads (>= 1, and never more than the
+/// hardware has), and returns when all have ended. The order is unspecified; body must not throw.
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// The number of hardware threads this process may use, at least 1.

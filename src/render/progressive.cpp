@@ -48,7 +48,8 @@ struct Pass {
     return result;
   }
 
-  [[nodiscard]] bool render_pixel(int x, int y, PathTracer<Geometry>& tracer, Pixel& pixel, TileResult& result) const {
+  [[nodiscard]] bool render_pixel(int x, int y, PathTracer<Geometry>& tracer, Pixel& pixel,
+                                  TileResult& result) const {
     const FilmSize size = job.scene->film;
     const int image_x = area.x0 + x;
     const int image_y = area.y0 + y;
@@ -86,7 +87,8 @@ std::vector<std::uint8_t> object_mask(const Job& job) {
   const auto shows_object = [&](double x, double y) -> std::uint8_t {
     const auto hit = job.geometry->closest_hit(
         camera.at((area.x0 + x) / scene.film.width, (area.y0 + y) / scene.film.height));
-    return hit && std::holds_alternative<TranslucentMaterial>(scene.materials[scene.objects[hit->object].material].kind);
+    return hit && std::holds_alternative<TranslucentMaterial>(
+                      scene.materials[scene.objects[hit->object].material].kind);
   };
   const auto width = static_cast<std::size_t>(area.x1 - area.x0);
   const auto height = static_cast<std::size_t>(area.y1 - area.y0);
@@ -123,7 +125,8 @@ Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& 
   for (;;) {
     const std::uint64_t samples = next_pass({done.spp, done.seconds, done.noise}, budget);
     if (samples == 0 || stop) return done;
-    const Pass pass{job, camera, area, {job.estimator, is_chromatic(scene), &stop}, done.spp, samples, done.film, next};
+    const Pass pass{job,      camera,  area,      {job.estimator, is_chromatic(scene), &stop},
+                    done.spp, samples, done.film, next};
     std::vector<TileResult> results(tiles.size());
     parallel_for(job.threads, tiles.size(), [&](std::size_t i) { results[i] = pass.render_tile(tiles[i]); });
     PathCounters counters = done.counters;

@@ -1,5 +1,5 @@
-// Progressive rendering: passes over tiles on oneTBB. Every pixel has one owner in a pass and takes its samples in
-// order, so the bytes depend on nothing but the job.
+// Progressive rendering: passes over tiles on oneTBB. Every pixel has one owner in a pass and takes its
+// samples in order, so the bytes depend on nothing but the job.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,8 @@
 
 namespace meander {
 
-/// What to render; immutable once submitted. Sample k of a pixel draws from stream(seed, pixel, first_sample + k).
+/// What to render; immutable once submitted. Sample k of a pixel draws from stream(seed, pixel, first_sample
+/// + k).
 struct Job {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const Geometry> geometry;
@@ -38,12 +39,13 @@ struct Rendering {
 /// The rectangle of the scene's film that the job renders.
 [[nodiscard]] Tile area_of(const Job& job);
 
-/// One byte a pixel of the job's area: 1 where its whole square shows a translucent object, judged at its corners and
-/// its middle.
+/// One byte a pixel of the job's area: 1 where its whole square shows a translucent object, judged at its
+/// corners and its middle.
 [[nodiscard]] std::vector<std::uint8_t> object_mask(const Job& job);
 
-/// Renders until the budget is met or `stop` becomes true. `published` is called after every pass, on the calling
-/// thread. A pass that was interrupted is discarded whole: keeping the walks that had ended would keep the short ones.
+/// Renders until the budget is met or `stop` becomes true. `published` is called after every pass, on the
+/// calling thread. A pass that was interrupted is discarded whole: keeping the walks that had ended would
+/// keep the short ones.
 [[nodiscard]] Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& stop,
                                const std::function<void(const Rendering&)>& published);
 

@@ -1,5 +1,5 @@
-// Exact convex shapes under a linear map: the sphere, the box and the unbounded slab. Each answers where a line is
-// inside it; no tessellation and no epsilon. Parallel and grazing lines are ordinary cases.
+// Exact convex shapes under a linear map: the sphere, the box and the unbounded slab. Each answers where a
+// line is inside it; no tessellation and no epsilon. Parallel and grazing lines are ordinary cases.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace meander {
 
-/// The part near <= t <= far of a line o + t d that is inside a shape, with the outward gradients at its ends (not
-/// normalised).
+/// The part near <= t <= far of a line o + t d that is inside a shape, with the outward gradients at its ends
+/// (not normalised).
 struct Interval {
   Real near;
   Real far;
@@ -23,8 +23,9 @@ struct Interval {
 
 /// Unit sphere at the origin.
 struct UnitSphere {
-  /// Roots by the product rule, so that neither loses digits to cancellation; the discriminant from the closest point
-  /// (Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection").
+  /// Roots by the product rule, so that neither loses digits to cancellation; the discriminant from the
+  /// closest point (Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere
+  /// Intersection").
   [[nodiscard]] static std::optional<Interval> inside(const Vec3& o, const Vec3& d) noexcept {
     const Real dd = glm::dot(d, d);
     const Real middle = -glm::dot(o, d) / dd;
@@ -124,8 +125,8 @@ struct AffineShape {
     return Unit::inside(to_unit * o, to_unit * d);
   }
 
-  /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. A point that
-  /// rounding put just outside leaves at once; nothing leaks.
+  /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. A
+  /// point that rounding put just outside leaves at once; nothing leaks.
   [[nodiscard]] Crossing first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
     const auto interval = inside(p, d);
     const Real far = interval ? std::max(interval->far, Real(0)) : Real(0);

@@ -8,9 +8,8 @@ CameraRays make_camera_rays(const Camera& camera, int width, int height) noexcep
   const DVec3 forward = glm::normalize(camera.look_at - camera.look_from);
   const DVec3 right = glm::normalize(glm::cross(forward, camera.up));
   const DVec3 up = glm::cross(right, forward);
-  const double full_height = camera.orthographic_height
-                                 ? *camera.orthographic_height
-                                 : 2 * std::tan(glm::radians(camera.vertical_fov) / 2);
+  const double full_height = camera.orthographic_height ? *camera.orthographic_height
+                                                        : 2 * std::tan(glm::radians(camera.vertical_fov) / 2);
   const double aspect = static_cast<double>(width) / height;
   return {camera.look_from, right * (full_height * aspect), up * full_height, forward,
           camera.orthographic_height.has_value()};

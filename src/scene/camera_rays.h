@@ -5,7 +5,8 @@
 
 namespace meander {
 
-/// A ray in world coordinates; the origin is in double so that a body far from the world's origin loses nothing.
+/// A ray in world coordinates; the origin is in double so that a body far from the world's origin loses
+/// nothing.
 struct Ray {
   DVec3 origin{0};
   Vec3 direction{0, 0, 1};

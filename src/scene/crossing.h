@@ -14,8 +14,8 @@ enum class CrossingKind : std::uint8_t {
   leaked,  // the walk is outside without having crossed: the surface has a hole
 };
 
-/// The outcome of one step in the body's own coordinates. `normal` (geometric) and `shading_normal` are unit, outward,
-/// and set only at an exit.
+/// The outcome of one step in the body's own coordinates. `normal` (geometric) and `shading_normal` are unit,
+/// outward, and set only at an exit.
 struct Crossing {
   CrossingKind kind = CrossingKind::none;
   Real distance = 0;
@@ -24,7 +24,8 @@ struct Crossing {
   Vec3 shading_normal{0, 0, 1};
 };
 
-/// Where a ray in the world meets an object. `point` is in the object's own coordinates; normals are unit and outward.
+/// Where a ray in the world meets an object. `point` is in the object's own coordinates; normals are unit and
+/// outward.
 struct SurfaceHit {
   std::size_t object = 0;
   double distance = 0;

@@ -1,4 +1,5 @@
-// A scene as plain data: what the file says, in scene units, with coefficients already resolved. Nothing here traces.
+// A scene as plain data: what the file says, in scene units, with coefficients already resolved. Nothing here
+// traces.
 #pragma once
 
 #include <cstdint>

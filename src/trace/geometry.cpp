@@ -19,8 +19,8 @@ struct BodyHit {
   Vec3 shading_normal;
 };
 
-// The ray's origin in a body's coordinates, moved along the ray to `start` while still in double, so that what is
-// left to single precision is of the body's own size.
+// The ray's origin in a body's coordinates, moved along the ray to `start` while still in double, so that
+// what is left to single precision is of the body's own size.
 struct LocalRay {
   double start;
   Vec3 origin;
@@ -77,8 +77,8 @@ bool is_inside(const MeshBody& mesh, const Vec3& p, const Vec3& d) noexcept {
   return behind && glm::dot(behind->normal, d) < 0;
 }
 
-// On the rim of a mesh a ray may slip past the last triangle that faces it and meet the next one from behind. Where a
-// mesh is closed, such a hit from outside is no hit.
+// On the rim of a mesh a ray may slip past the last triangle that faces it and meet the next one from behind.
+// Where a mesh is closed, such a hit from outside is no hit.
 std::optional<BodyHit> first_hit(const MeshBody& mesh, const Ray& ray, const Placement& placement,
                                  double distance) noexcept {
   const auto entry = bounds_entry(ray, placement.center, mesh.half_size());
@@ -89,8 +89,9 @@ std::optional<BodyHit> first_hit(const MeshBody& mesh, const Ray& ray, const Pla
     const auto hit = mesh.closest(local.origin, local.direction, static_cast<Real>(distance - start));
     if (!hit) return std::nullopt;
     const bool leaves = glm::dot(hit->normal, local.direction) >= 0;
-    const bool grazes = placement.closed && leaves &&
-                        (*entry > 0 || !is_inside(mesh, localise(ray, placement.center, 0).origin, local.direction));
+    const bool grazes =
+        placement.closed && leaves &&
+        (*entry > 0 || !is_inside(mesh, localise(ray, placement.center, 0).origin, local.direction));
     if (!grazes) return BodyHit{start + hit->distance, hit->point, hit->normal, hit->shading_normal};
     start += hit->distance + step;
   }
@@ -98,7 +99,8 @@ std::optional<BodyHit> first_hit(const MeshBody& mesh, const Ray& ray, const Pla
 }
 
 template <class Unit>
-bool blocks(const AffineShape<Unit>& shape, const Ray& ray, const Placement& placement, double distance) noexcept {
+bool blocks(const AffineShape<Unit>& shape, const Ray& ray, const Placement& placement,
+            double distance) noexcept {
   return first_hit(shape, ray, placement, distance).has_value();
 }
 
@@ -133,8 +135,10 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene) con
   const DVec3& origin = object.transform.translate;
   if (std::holds_alternative<SphereShape>(object.shape))
     return {SphereBody(map), origin, size_of(map), closed, matched, sigma_t};
-  if (std::holds_alternative<BoxShape>(object.shape)) return {BoxBody(map), origin, size_of(map), closed, matched, sigma_t};
-  if (std::holds_alternative<SlabShape>(object.shape)) return {SlabBody(map), origin, size_of(map), closed, matched, sigma_t};
+  if (std::holds_alternative<BoxShape>(object.shape))
+    return {BoxBody(map), origin, size_of(map), closed, matched, sigma_t};
+  if (std::holds_alternative<SlabShape>(object.shape))
+    return {SlabBody(map), origin, size_of(map), closed, matched, sigma_t};
   DVec3 center(0);
   MeshBody mesh(device_.get(), *std::get<std::shared_ptr<const Mesh>>(object.shape), map, center);
   const Real size = largest(mesh.half_size());
@@ -146,12 +150,12 @@ std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray) const noexcept {
   double distance = kInfinity;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
-    const auto hit =
-        std::visit([&](const auto& shape) { return first_hit(shape, ray, placement_of(body), distance); }, body.shape);
+    const auto hit = std::visit(
+        [&](const auto& shape) { return first_hit(shape, ray, placement_of(body), distance); }, body.shape);
     if (!hit) continue;
     distance = hit->distance;
-    closest = SurfaceHit{i, distance, hit->point, hit->normal, hit->shading_normal,
-                         glm::dot(hit->normal, ray.direction) < 0};
+    closest = SurfaceHit{
+        i, distance, hit->point, hit->normal, hit->shading_normal, glm::dot(hit->normal, ray.direction) < 0};
   }
   return closest;
 }
@@ -162,8 +166,8 @@ Real Geometry::length_inside(const Body& body, const Ray& ray, double distance) 
   double done = 0;  // everything before this distance is accounted for
   while (done < distance) {
     const Ray rest{ray.origin + done * DVec3(ray.direction), ray.direction};
-    const auto hit =
-        std::visit([&](const auto& shape) { return first_hit(shape, rest, placement_of(body), kInfinity); }, body.shape);
+    const auto hit = std::visit(
+        [&](const auto& shape) { return first_hit(shape, rest, placement_of(body), kInfinity); }, body.shape);
     if (!hit) break;
     if (glm::dot(hit->normal, ray.direction) > 0) inside += std::min(hit->distance, distance - done);
     // Past the surface just met, by what outweighs its rounding.
@@ -175,8 +179,8 @@ Real Geometry::length_inside(const Body& body, const Ray& ray, double distance) 
 Rgb Geometry::transmittance(const Ray& ray, double distance) const noexcept {
   for (const Body& body : bodies_) {
     if (body.matched) continue;
-    const bool blocked =
-        std::visit([&](const auto& shape) { return blocks(shape, ray, placement_of(body), distance); }, body.shape);
+    const bool blocked = std::visit(
+        [&](const auto& shape) { return blocks(shape, ray, placement_of(body), distance); }, body.shape);
     if (blocked) return Rgb(0);
   }
   Rgb through(1);

@@ -1,4 +1,5 @@
-// A scene's geometry for rays and walks: every object a body in its own coordinates, placed by a translation in double.
+// A scene's geometry for rays and walks: every object a body in its own coordinates, placed by a translation
+// in double.
 #pragma once
 
 #include <limits>
@@ -13,14 +14,15 @@ namespace meander {
 
 class Geometry {
  public:
-  /// Builds what tracing needs, on at most `threads` threads; keeps nothing of the scene. Errors: Error(runtime).
+  /// Builds what tracing needs, on at most `threads` threads; keeps nothing of the scene. Errors:
+  /// Error(runtime).
   Geometry(const Scene& scene, int threads);
 
   /// The first surface along a ray, from either side.
   [[nodiscard]] std::optional<SurfaceHit> closest_hit(const Ray& ray) const noexcept;
 
-  /// Along `distance` (may be infinite) of a ray: what matched bodies let through unscattered, per channel; 0 where
-  /// any other object stands in the way.
+  /// Along `distance` (may be infinite) of a ray: what matched bodies let through unscattered, per channel; 0
+  /// where any other object stands in the way.
   [[nodiscard]] Rgb transmittance(const Ray& ray, double distance) const noexcept;
 
   /// The object's own origin, in the world.

@@ -62,7 +62,8 @@ Device make_device(int threads) {
 MeshBody::MeshBody(RTCDevice device, const Mesh& mesh, const DMat3& map, DVec3& center)
     : triangles_(mesh.triangles), normal_triangles_(mesh.normal_triangles) {
   std::vector<DVec3> mapped(mesh.positions.size());
-  std::transform(mesh.positions.begin(), mesh.positions.end(), mapped.begin(), [&](const DVec3& p) { return map * p; });
+  std::transform(mesh.positions.begin(), mesh.positions.end(), mapped.begin(),
+                 [&](const DVec3& p) { return map * p; });
   DVec3 low = mapped.front();
   DVec3 high = low;
   for (const DVec3& p : mapped) {
@@ -84,8 +85,8 @@ MeshBody::MeshBody(RTCDevice device, const Mesh& mesh, const DMat3& map, DVec3& 
   }
 
   scene_.reset(rtcNewScene(device));
-  rtcSetSceneFlags(scene_.get(),
-                   static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcSetSceneFlags(scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions_.data(), 0,
                              sizeof(glm::vec3), positions_.size() - 1);
@@ -132,8 +133,8 @@ bool MeshBody::occluded(const Vec3& o, const Vec3& d, Real distance) const noexc
   return query.ray.tfar < 0;
 }
 
-// Whether a point next to the surface lies outside of it: whether the nearest surface behind it, seen along its
-// direction, was an exit.
+// Whether a point next to the surface lies outside of it: whether the nearest surface behind it, seen along
+// its direction, was an exit.
 bool MeshBody::is_outside(const Vec3& p, const Vec3& d) const noexcept {
   RTCRayHit query = make_query(p, -d, 2 * margin_);
   intersect(scene_.get(), query, nullptr);
@@ -142,8 +143,8 @@ bool MeshBody::is_outside(const Vec3& p, const Vec3& d) const noexcept {
 }
 
 Crossing MeshBody::first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
-  // Looking from a little behind finds the exit that rounding may have carried the point across; looking a little too
-  // far finds the surface that the end of the step may round across.
+  // Looking from a little behind finds the exit that rounding may have carried the point across; looking a
+  // little too far finds the surface that the end of the step may round across.
   RTCRayHit query = make_query(p - margin_ * d, d, distance + 2 * margin_);
   intersect(scene_.get(), query, accept_exits);
   if (is_hit(query) && query.ray.tfar < margin_ && !is_outside(p, d)) {

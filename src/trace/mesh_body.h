@@ -1,5 +1,5 @@
-// A closed triangle mesh on Embree, in its own coordinates: centred on its bounds, so that a body far from the origin
-// is as exact as one at it.
+// A closed triangle mesh on Embree, in its own coordinates: centred on its bounds, so that a body far from
+// the origin is as exact as one at it.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -34,13 +34,14 @@ struct MeshHit {
 
 class MeshBody {
  public:
-  /// The mesh under the linear map, moved so that its bounds are centred on the origin; `center` receives where that
-  /// centre was. The mesh must have triangles; a map that mirrors turns them. Errors: Error(runtime) from Embree.
+  /// The mesh under the linear map, moved so that its bounds are centred on the origin; `center` receives
+  /// where that centre was. The mesh must have triangles; a map that mirrors turns them. Errors:
+  /// Error(runtime) from Embree.
   MeshBody(RTCDevice device, const Mesh& mesh, const DMat3& map, DVec3& center);
 
-  /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. Only crossings
-  /// outward count. A point that rounding left outside leaves at once, and one about to be left outside is moved in by
-  /// the offset.
+  /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. Only
+  /// crossings outward count. A point that rounding left outside leaves at once, and one about to be left
+  /// outside is moved in by the offset.
   [[nodiscard]] Crossing first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept;
 
   /// The first surface within `distance` along a ray, from either side.

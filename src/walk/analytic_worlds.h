@@ -1,5 +1,5 @@
-// Exact worlds in units of the mean free path or any other: the slab, the half-space and the sphere, for `measure` and
-// for the tests. The surface that light enters through is at z = 0, the medium below it.
+// Exact worlds in units of the mean free path or any other: the slab, the half-space and the sphere, for
+// `measure` and for the tests. The surface that light enters through is at z = 0, the medium below it.
 #pragma once
 
 #include <cmath>
@@ -38,7 +38,8 @@ struct SphereWorld {
   Real radius;
 
   [[nodiscard]] Crossing first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
-    // |p + t d|^2 = r^2 by the product rule; c <= 0 inside, and rounding above 0 means the walk is at the surface.
+    // |p + t d|^2 = r^2 by the product rule; c <= 0 inside, and rounding above 0 means the walk is at the
+    // surface.
     const Real b = glm::dot(p, d);
     const Real c = glm::dot(p, p) - radius * radius;
     const Real root = std::sqrt(std::max(b * b - c, Real(0)));

@@ -52,14 +52,16 @@ std::optional<LightHit> hit(const RectangleLight& light, const Ray& ray) noexcep
   return LightHit{distance, light.radiance, solid_angle_pdf(distance, cosine, light.width * light.height)};
 }
 
-// 1 - cosine of the half-angle under which a sphere is seen from a squared distance > r^2, without cancellation.
+// 1 - cosine of the half-angle under which a sphere is seen from a squared distance > r^2, without
+// cancellation.
 double cone_of(double radius, double squared_distance) noexcept {
   const double sin2 = radius * radius / squared_distance;
   return sin2 / (1 + std::sqrt(1 - sin2));
 }
 
 // Distance along a unit direction to the first crossing of a sphere's surface.
-std::optional<double> sphere_distance(const DVec3& to_center, const DVec3& direction, double radius) noexcept {
+std::optional<double> sphere_distance(const DVec3& to_center, const DVec3& direction,
+                                      double radius) noexcept {
   const double along = glm::dot(to_center, direction);
   const DVec3 off = to_center - along * direction;
   const double discriminant = radius * radius - glm::dot(off, off);
@@ -103,7 +105,8 @@ std::optional<LightSample> sample(const PointLight& light, const DVec3& point, c
   const double squared = glm::dot(toward, toward);
   if (!(squared > 0)) return std::nullopt;
   const double distance = std::sqrt(squared);
-  return LightSample{Vec3(toward / distance), distance, light.intensity * static_cast<Real>(1 / squared), 1, true};
+  return LightSample{Vec3(toward / distance), distance, light.intensity * static_cast<Real>(1 / squared), 1,
+                     true};
 }
 
 std::optional<LightSample> sample(const DirectionalLight& light, const DVec3&, const Vec2&) noexcept {

@@ -1,5 +1,5 @@
-// Lights as a walk meets them: sampled from a point, or hit by a ray. Origins are in double, so that a scene far from
-// the origin loses nothing; directions and distances are what is left after the subtraction.
+// Lights as a walk meets them: sampled from a point, or hit by a ray. Origins are in double, so that a scene
+// far from the origin loses nothing; directions and distances are what is left after the subtraction.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace meander {
 
-/// A direction toward a light. `radiance` is what arrives along it unoccluded; for a light without extent (`delta`) it
-/// is what a surface facing it receives per unit of lobe, and pdf is 1.
+/// A direction toward a light. `radiance` is what arrives along it unoccluded; for a light without extent
+/// (`delta`) it is what a surface facing it receives per unit of lobe, and pdf is 1.
 struct LightSample {
   Vec3 direction;
   double distance;  // infinite for a directional light
@@ -20,14 +20,17 @@ struct LightSample {
   bool delta;
 };
 
-/// Draws a direction toward a light from `point` with u in [0, 1)^2; nothing where the light shows its dark side.
-[[nodiscard]] std::optional<LightSample> sample_light(const Light& light, const DVec3& point, const Vec2& u) noexcept;
+/// Draws a direction toward a light from `point` with u in [0, 1)^2; nothing where the light shows its dark
+/// side.
+[[nodiscard]] std::optional<LightSample> sample_light(const Light& light, const DVec3& point,
+                                                      const Vec2& u) noexcept;
 
 /// Where a ray meets a light's emitting side.
 struct LightHit {
   double distance;
   Rgb radiance;
-  Real pdf;  // density with which sample_light would have drawn this direction from the ray's origin, per steradian
+  Real pdf;  // density with which sample_light would have drawn this direction from the ray's origin, per
+             // steradian
 };
 
 /// Nothing for lights without extent.

@@ -1,6 +1,6 @@
-// The Lambertian lobe of a surface whose shading normal may differ from its geometric one. What would leave on the
-// wrong side is mirrored at the geometric plane, so that no energy is lost; the value per unit reflectance, cosine
-// included, is then also the density of the sampled direction.
+// The Lambertian lobe of a surface whose shading normal may differ from its geometric one. What would leave
+// on the wrong side is mirrored at the geometric plane, so that no energy is lost; the value per unit
+// reflectance, cosine included, is then also the density of the sampled direction.
 #pragma once
 
 #include "math/frame.h"
@@ -27,7 +27,8 @@ struct LambertLobe {
   }
 };
 
-/// The lobe on the side of the geometric normal `normal`; a shading normal that points to the other side is turned.
+/// The lobe on the side of the geometric normal `normal`; a shading normal that points to the other side is
+/// turned.
 [[nodiscard]] inline LambertLobe make_lobe(const Vec3& normal, const Vec3& shading_normal) noexcept {
   return {normal, glm::dot(normal, shading_normal) < 0 ? -shading_normal : shading_normal};
 }

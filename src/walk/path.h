@@ -1,6 +1,6 @@
-// One sample of a pixel: from the camera through media and off surfaces until the light is found or the weight is gone.
-// Every light is sampled where the path scatters; rays that hit a light by themselves share it by the balance
-// heuristic. A constant environment is collected by escaping rays alone.
+// One sample of a pixel: from the camera through media and off surfaces until the light is found or the
+// weight is gone. Every light is sampled where the path scatters; rays that hit a light by themselves share
+// it by the balance heuristic. A constant environment is collected by escaping rays alone.
 #pragma once
 
 #include <atomic>
@@ -14,10 +14,10 @@
 namespace meander {
 
 /// What a path asks of a scene's geometry.
-/// closest_hit: the first surface along a ray. center: an object's origin in the world. offset: the distance that
-/// outweighs the rounding of a point of it. with_body: calls f with the object's World, returns what f returns. transmittance: along a
-/// segment through every matched body on it, 0 where anything else stands in the way. traces_rays: whether a step in
-/// the object costs a ray.
+/// closest_hit: the first surface along a ray. center: an object's origin in the world. offset: the distance
+/// that outweighs the rounding of a point of it. with_body: calls f with the object's World, returns what f
+/// returns. transmittance: along a segment through every matched body on it, 0 where anything else stands in
+/// the way. traces_rays: whether a step in the object costs a ray.
 template <class G>
 concept SceneGeometry = requires(const G& geometry, const Ray& ray, std::size_t object, const Vec3& point,
                                  double distance) {
@@ -45,8 +45,8 @@ struct PathCounters {
 
 struct PathOptions {
   Estimator estimator = Estimator::implicit;
-  bool chromatic = false;                       // some medium's sigma_t differs between channels
-  const std::atomic<bool>* stop = nullptr;      // asked every kStopInterval steps
+  bool chromatic = false;                   // some medium's sigma_t differs between channels
+  const std::atomic<bool>* stop = nullptr;  // asked every kStopInterval steps
 };
 
 /// Traces paths in one scene; holds references only. One tracer a thread, for the counters' sake.
@@ -63,8 +63,9 @@ class PathTracer {
   [[nodiscard]] const PathCounters& counters() const noexcept { return counters_; }
 
  private:
-  // The path between two interactions. `vertex` is where it last scattered, `pdf` the density per steradian of the
-  // direction it took there, `light_choice` the probability with which any one light was sampled there.
+  // The path between two interactions. `vertex` is where it last scattered, `pdf` the density per steradian
+  // of the direction it took there, `light_choice` the probability with which any one light was sampled
+  // there.
   struct State {
     Ray ray;
     PathWeight weight;
@@ -91,7 +92,8 @@ class PathTracer {
   template <Sink S>
   void collect_environment(const State& state, S& sink) const noexcept;
   template <Sink S, class Density>
-  void sample_direct(std::size_t light, const State& vertex, const Density& density, const Vec2& u, S& sink) noexcept;
+  void sample_direct(std::size_t light, const State& vertex, const Density& density, const Vec2& u,
+                     S& sink) noexcept;
 
   [[nodiscard]] bool stop() const noexcept {
     return options_.stop && options_.stop->load(std::memory_order_relaxed);

@@ -33,7 +33,8 @@ struct PathTracer<G>::WalkObserver {
   void scattered(const Walker& walker) noexcept {
     if (!lit) return;
     const std::size_t count = tracer.scene_.lights.size();
-    const std::size_t light = std::min(static_cast<std::size_t>(random.next() * static_cast<Real>(count)), count - 1);
+    const std::size_t light =
+        std::min(static_cast<std::size_t>(random.next() * static_cast<Real>(count)), count - 1);
     const Real u1 = random.next();
     const Real u2 = random.next();
     State vertex;
@@ -64,7 +65,8 @@ template <Sink S>
 auto PathTracer<G>::advance(State& state, Random& random, S& sink) noexcept -> Step {
   ++counters_.rays;
   const std::optional<SurfaceHit> hit = geometry_.closest_hit(state.ray);
-  if (collect_lights(state, hit ? hit->distance : std::numeric_limits<double>::infinity(), sink)) return Step::done;
+  if (collect_lights(state, hit ? hit->distance : std::numeric_limits<double>::infinity(), sink))
+    return Step::done;
   if (!hit) {
     collect_environment(state, sink);
     return Step::done;
@@ -94,7 +96,8 @@ auto PathTracer<G>::reflect(const SurfaceHit& hit, const LambertLobe& lobe, Stat
   for (std::size_t light = 0; light < scene_.lights.size(); ++light) {
     const Real u1 = random.next();
     const Real u2 = random.next();
-    sample_direct(light, state, [&](const Vec3& d) { return lobe.eval(d); }, {u1, u2}, sink);
+    sample_direct(
+        light, state, [&](const Vec3& d) { return lobe.eval(d); }, {u1, u2}, sink);
   }
   const Real u1 = random.next();
   const Real u2 = random.next();
@@ -123,7 +126,8 @@ auto PathTracer<G>::cross_body(const SurfaceHit& hit, const TranslucentMaterial&
   } else {
     walker.position = Vec3(state.ray.origin - geometry_.center(hit.object));
   }
-  WalkObserver<S> observer{*this, sink, random, hit.object, material.medium.g, matched && !scene_.lights.empty()};
+  WalkObserver<S> observer{
+      *this, sink, random, hit.object, material.medium.g, matched && !scene_.lights.empty()};
   const WalkModel model{material.medium, options_.estimator};
   const WalkResult result = geometry_.with_body(
       hit.object, [&](const auto& world) { return random_walk(world, model, walker, random, observer); });
@@ -154,7 +158,8 @@ auto PathTracer<G>::cross_body(const SurfaceHit& hit, const TranslucentMaterial&
   }
   SurfaceHit exit = hit;
   exit.point = result.crossing.point;
-  return reflect(exit, make_lobe(result.crossing.normal, result.crossing.shading_normal), state, random, sink);
+  return reflect(exit, make_lobe(result.crossing.normal, result.crossing.shading_normal), state, random,
+                 sink);
 }
 
 // Adds the lights that the ray meets before `distance`; true when a light that the camera sees ends the path.
@@ -194,16 +199,17 @@ template <SceneGeometry G>
 template <Sink S>
 void PathTracer<G>::collect_environment(const State& state, S& sink) const noexcept {
   if (!state.scattered && !scene_.environment.visible) return;
-  const Rgb radiance = state.weight.throughput * state.weight.free_path_weight() * scene_.environment.radiance;
+  const Rgb radiance =
+      state.weight.throughput * state.weight.free_path_weight() * scene_.environment.radiance;
   sink.add(detail::make_contribution(state.weight, radiance, 0));
 }
 
-// One light seen from a vertex whose lobe or phase function has the density `density(direction)`, which is also its
-// value; the balance heuristic against the path finding the light by itself, over all channels.
+// One light seen from a vertex whose lobe or phase function has the density `density(direction)`, which is
+// also its value; the balance heuristic against the path finding the light by itself, over all channels.
 template <SceneGeometry G>
 template <Sink S, class Density>
-void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const Density& density, const Vec2& u,
-                                  S& sink) noexcept {
+void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const Density& density,
+                                  const Vec2& u, S& sink) noexcept {
   const auto sample = sample_light(scene_.lights[light], vertex.vertex, u);
   if (!sample) return;
   const Real pdf = density(sample->direction);

@@ -1,5 +1,5 @@
-// What a path carries. The albedos and the free-path densities are kept apart, so that an image can be re-weighted for
-// another albedo and so that no free-path weight ever exceeds 3.
+// What a path carries. The albedos and the free-path densities are kept apart, so that an image can be
+// re-weighted for another albedo and so that no free-path weight ever exceeds 3.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace meander {
 
-/// One channel (the hero) samples every distance of a path; the one-sample balance heuristic over the channels
-/// (Wilkie, Nawaz, Droske, Weidlich, Hanika 2014, eq. 6) weighs channel c by p_c / mean_j(p_j), p the product of the
-/// whole path's free-path densities. Only proportions of p are kept: products underflow.
+/// One channel (the hero) samples every distance of a path; the one-sample balance heuristic over the
+/// channels (Wilkie, Nawaz, Droske, Weidlich, Hanika 2014, eq. 6) weighs channel c by p_c / mean_j(p_j), p
+/// the product of the whole path's free-path densities. Only proportions of p are kept: products underflow.
 struct PathWeight {
-  Rgb throughput{1};     // everything but albedos and free paths: surface reflectance, roulette
-  Rgb albedo{1};         // product of the single-scattering albedos, alpha^n
-  Rgb ratio{1};          // p_c up to the last vertex, scaled so that the largest is 1
-  Rgb since{1};          // transmittance from the last vertex to here, per channel
-  int hero = 0;          // channel that samples the distances
+  Rgb throughput{1};        // everything but albedos and free paths: surface reflectance, roulette
+  Rgb albedo{1};            // product of the single-scattering albedos, alpha^n
+  Rgb ratio{1};             // p_c up to the last vertex, scaled so that the largest is 1
+  Rgb since{1};             // transmittance from the last vertex to here, per channel
+  int hero = 0;             // channel that samples the distances
   std::uint32_t order = 0;  // number of scatterings in media
-  Real length = 0;       // path length inside media, scene units
+  Real length = 0;          // path length inside media, scene units
 
   [[nodiscard]] Rgb carried() const noexcept { return throughput * albedo; }
 
@@ -56,8 +56,8 @@ struct PathWeight {
     since = Rgb(1);
   }
 
-  /// Russian roulette on what is carried: false when the path ends. A weight that falls below `threshold` is lifted
-  /// back to it with the matching probability, so the expectation stands.
+  /// Russian roulette on what is carried: false when the path ends. A weight that falls below `threshold` is
+  /// lifted back to it with the matching probability, so the expectation stands.
   [[nodiscard]] bool survives_roulette(Random& random, Real threshold) noexcept {
     const Real weight = largest(carried());
     if (weight >= threshold) return true;

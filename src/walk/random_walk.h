@@ -1,5 +1,6 @@
-// The scalar random walk in a homogeneous medium: sample a distance, ask whether the step crosses the surface,
-// scatter, weigh. Short, and kept as the oracle for every faster one. No cap on the number of scatterings.
+// The scalar random walk in a homogeneous medium: sample a distance, ask whether the step crosses the
+// surface, scatter, weigh. Short, and kept as the oracle for every faster one. No cap on the number of
+// scatterings.
 #pragma once
 
 #include <cmath>
@@ -12,8 +13,8 @@
 
 namespace meander {
 
-/// analog: absorbed with probability 1 - albedo at each collision. implicit: the weight takes the albedo, and roulette
-/// ends light that matters no more.
+/// analog: absorbed with probability 1 - albedo at each collision. implicit: the weight takes the albedo, and
+/// roulette ends light that matters no more.
 enum class Estimator { analog, implicit };
 
 struct WalkModel {
@@ -21,9 +22,9 @@ struct WalkModel {
   Estimator estimator = Estimator::implicit;
 };
 
-/// Below this weight an implicit walk plays roulette. Measured as 1 / (variance x time) of the escaping weight, on
-/// half-spaces of albedo 0.5 to 0.999, a sphere and a slab: 0.3 is within 11 % of the best threshold in every case,
-/// 0.1 within 29 %, 1 (which is analog) within 78 %.
+/// Below this weight an implicit walk plays roulette. Measured as 1 / (variance x time) of the escaping
+/// weight, on half-spaces of albedo 0.5 to 0.999, a sphere and a slab: 0.3 is within 11 % of the best
+/// threshold in every case, 0.1 within 29 %, 1 (which is analog) within 78 %.
 inline constexpr Real kRouletteThreshold = Real(0.3);
 
 /// Steps between two questions whether to stop.
@@ -46,8 +47,9 @@ struct WalkResult {
 };
 
 /// What a walk tells as it goes; every call may be empty.
-/// segment: about to fly `distance` inside. absorbed: this much of the weight stays in the medium here. scattered: a
-/// collision's weight has been applied and the old direction still stands. stop: asked every kStopInterval steps.
+/// segment: about to fly `distance` inside. absorbed: this much of the weight stays in the medium here.
+/// scattered: a collision's weight has been applied and the old direction still stands. stop: asked every
+/// kStopInterval steps.
 template <class E>
 concept WalkEvents = requires(E& events, const Walker& walker, Real distance, const Rgb& amount) {
   events.segment(walker, distance);
@@ -78,7 +80,8 @@ inline void scatter_direction(Walker& walker, Real g, Random& random) noexcept {
 
 /// Takes the albedo of one collision; false when the walk ends here.
 template <WalkEvents E>
-[[nodiscard]] bool survives_collision(const WalkModel& model, Walker& walker, Random& random, E& events) noexcept {
+[[nodiscard]] bool survives_collision(const WalkModel& model, Walker& walker, Random& random,
+                                      E& events) noexcept {
   PathWeight& weight = walker.weight;
   const Rgb& albedo = model.medium.albedo;
   if (model.estimator == Estimator::analog) {
@@ -95,8 +98,8 @@ template <WalkEvents E>
   return weight.survives_roulette(random, kRouletteThreshold);
 }
 
-/// Walks from walker.position (inside) along walker.direction until the walk leaves the body, is absorbed, leaks
-/// through a hole or is interrupted. Distances follow the hero channel; weights follow PathWeight.
+/// Walks from walker.position (inside) along walker.direction until the walk leaves the body, is absorbed,
+/// leaks through a hole or is interrupted. Distances follow the hero channel; weights follow PathWeight.
 template <World W, WalkEvents E>
 [[nodiscard]] WalkResult random_walk(const W& world, const WalkModel& model, Walker& walker, Random& random,
                                      E& events) noexcept {

@@ -1,5 +1,5 @@
-// The scalar walk's speed on one core: steps and walks a second in the exact sphere and in the torus knot of 100k
-// triangles, at three mean free paths. Never a test: timings are for reading.
+// The scalar walk's speed on one core: steps and walks a second in the exact sphere and in the torus knot of
+// 100k triangles, at three mean free paths. Never a test: timings are for reading.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -63,7 +63,8 @@ void mesh(benchmark::State& state, const Mesh& mesh, Real g) {
   const MeshBody body(device.get(), mesh, DMat3(1), center);
   run_walks(state, body, g, [&](Walker& walker, Random& random) {
     const auto count = static_cast<Real>(mesh.triangles.size());
-    const Triangle& t = mesh.triangles[std::min(static_cast<std::size_t>(random.next() * count), mesh.triangles.size() - 1)];
+    const Triangle& t =
+        mesh.triangles[std::min(static_cast<std::size_t>(random.next() * count), mesh.triangles.size() - 1)];
     const DVec3& a = mesh.positions[t[0]];
     const DVec3& b = mesh.positions[t[1]];
     const DVec3& c = mesh.positions[t[2]];
@@ -75,8 +76,10 @@ void mesh(benchmark::State& state, const Mesh& mesh, Real g) {
   });
 }
 
-void mesh_sphere(benchmark::State& state, Real g) { mesh(state, make_sphere_mesh(71), g); }  // 100 820 triangles
-void torus_knot(benchmark::State& state, Real g) { mesh(state, make_torus_knot(), g); }      // 100 000 triangles
+void mesh_sphere(benchmark::State& state, Real g) {
+  mesh(state, make_sphere_mesh(71), g);
+}  // 100 820 triangles
+void torus_knot(benchmark::State& state, Real g) { mesh(state, make_torus_knot(), g); }  // 100 000 triangles
 
 }  // namespace
 

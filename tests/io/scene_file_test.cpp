@@ -15,7 +15,8 @@ namespace {
 class TemporaryScene {
  public:
   explicit TemporaryScene(const std::string& text)
-      : path_((std::filesystem::temp_directory_path() / ("scene-" + std::to_string(getpid()) + ".toml")).string()) {
+      : path_((std::filesystem::temp_directory_path() / ("scene-" + std::to_string(getpid()) + ".toml"))
+                  .string()) {
     std::ofstream(path_) << text;
   }
   ~TemporaryScene() { std::filesystem::remove(path_); }
@@ -120,46 +121,71 @@ TEST_CASE("the three parametrisations of a medium") {
   CHECK(albedo.albedo.z == 1);
   const Medium color = medium_of(load(kWax + "color = 0.5\nradius = [1, 0.3, 0.2]\nradius_scale = 0.5\n"));
   CHECK(color.sigma_t.x == doctest::Approx(2));
-  const Medium chiang = medium_of(load(kWax + "color = [0.5, 0.75, 0.3]\nradius = [1, 0.3, 0.2]\ninversion = \"chiang\"\n"));
+  const Medium chiang =
+      medium_of(load(kWax + "color = [0.5, 0.75, 0.3]\nradius = [1, 0.3, 0.2]\ninversion = \"chiang\"\n"));
   CHECK(chiang.sigma_t.y == doctest::Approx(2.87666));
   CHECK(chiang.albedo.x == doctest::Approx(0.912298));
 }
 
 TEST_CASE("bad input is one line with the place, the wrong value and the right ones") {
-  CHECK(error_of("[camera]\nlok_from = [0, 0, 5]\n") == ":2:1: unknown key 'lok_from' in [camera]; did you mean 'look_from'?");
+  CHECK(error_of("[camera]\nlok_from = [0, 0, 5]\n") ==
+        ":2:1: unknown key 'lok_from' in [camera]; did you mean 'look_from'?");
   CHECK(error_of("[film]\nwidth = 0\n") == ":2:9: 'width' is 0, but must be a whole number from 1 to 16384");
   CHECK(error_of("[film]\nwidth = 1.5\n") == ":2:9: 'width' must be a whole number, not a number");
-  CHECK(error_of("[film]\nwidth = \"wide\"\n") == ":2:9: 'width' must be a whole number, not the text 'wide'");
-  CHECK(error_of(kWax + "albedo = 1.5\nmean_free_path = 1\n") == ":3:10: 'albedo' is 1.5, but must be in [0, 1]");
-  CHECK(error_of(kWax + "albedo = nan\nmean_free_path = 1\n") == ":3:10: 'albedo' is nan, but must be in [0, 1]");
-  CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = inf\n") == ":4:18: 'mean_free_path' is inf, but must be greater than 0");
-  CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = -1\n") == ":4:18: 'mean_free_path' is -1, but must be greater than 0");
-  CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = 1\ng = 1\n") == ":5:5: 'g' is 1, but must be greater than -1 and less than 1");
+  CHECK(error_of("[film]\nwidth = \"wide\"\n") ==
+        ":2:9: 'width' must be a whole number, not the text 'wide'");
+  CHECK(error_of(kWax + "albedo = 1.5\nmean_free_path = 1\n") ==
+        ":3:10: 'albedo' is 1.5, but must be in [0, 1]");
+  CHECK(error_of(kWax + "albedo = nan\nmean_free_path = 1\n") ==
+        ":3:10: 'albedo' is nan, but must be in [0, 1]");
+  CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = inf\n") ==
+        ":4:18: 'mean_free_path' is inf, but must be greater than 0");
+  CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = -1\n") ==
+        ":4:18: 'mean_free_path' is -1, but must be greater than 0");
+  CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = 1\ng = 1\n") ==
+        ":5:5: 'g' is 1, but must be greater than -1 and less than 1");
   CHECK(error_of(kWax + "albedo = 0.5\n") == ":1:1: [[material]] needs 'mean_free_path'");
-  CHECK(error_of(kWax + "sigma_s = 1\nalbedo = 0.5\n").starts_with(":3:11: 'sigma_s' and 'albedo' describe the medium twice"));
+  CHECK(error_of(kWax + "sigma_s = 1\nalbedo = 0.5\n")
+            .starts_with(":3:11: 'sigma_s' and 'albedo' describe the medium twice"));
   CHECK(error_of(kWax).starts_with(":1:1: [[material]] needs color + radius"));
-  CHECK(error_of(kWax + "albedo = [1, 1]\nmean_free_path = 1\n") == ":3:10: 'albedo' must be a number or a list of three numbers, not a list of 2");
-  CHECK(error_of(kWax + "type = \"glass\"\n") == ":3:8: 'type' is 'glass', but must be one of: translucent, diffuse, emissive");
-  CHECK(error_of("[[object]]\nshape = \"sphere\"\nmaterial = \"waxx\"\n" + kWax + "albedo = 0.5\nmean_free_path = 1\n") == ":3:12: there is no material named 'waxx'; did you mean 'wax'?");
-  CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = 1\n[[object]]\nmaterial = \"wax\"\n") == ":5:1: [[object]] needs either 'shape' or 'mesh'");
-  CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = 1\n[[object]]\nmaterial = \"wax\"\nshape = \"sphere\"\ntransform = { scale = 0 }\n") == ":8:23: 'scale' is 0, but must be greater than 0");
-  CHECK(error_of("[camera]\nlook_from = [0, 0, 0]\nlook_at = [0, 0, 0]\n") == ":3:11: 'look_at' must differ from 'look_from'");
+  CHECK(error_of(kWax + "albedo = [1, 1]\nmean_free_path = 1\n") ==
+        ":3:10: 'albedo' must be a number or a list of three numbers, not a list of 2");
+  CHECK(error_of(kWax + "type = \"glass\"\n") ==
+        ":3:8: 'type' is 'glass', but must be one of: translucent, diffuse, emissive");
+  CHECK(error_of("[[object]]\nshape = \"sphere\"\nmaterial = \"waxx\"\n" + kWax +
+                 "albedo = 0.5\nmean_free_path = 1\n") ==
+        ":3:12: there is no material named 'waxx'; did you mean 'wax'?");
+  CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = 1\n[[object]]\nmaterial = \"wax\"\n") ==
+        ":5:1: [[object]] needs either 'shape' or 'mesh'");
+  CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = 1\n[[object]]\nmaterial = \"wax\"\nshape = "
+                        "\"sphere\"\ntransform = { scale = 0 }\n") ==
+        ":8:23: 'scale' is 0, but must be greater than 0");
+  CHECK(error_of("[camera]\nlook_from = [0, 0, 0]\nlook_at = [0, 0, 0]\n") ==
+        ":3:11: 'look_at' must differ from 'look_from'");
   CHECK(error_of("[camera]\nup = [0, 0, 1]\n") == ":2:6: 'up' must not be zero or parallel to the view");
   CHECK(error_of("[film\n").starts_with(":1:"));
   CHECK(error_of("light = 3\n") == ":1:9: 'light' must be a list of tables, [[light]], not a number");
   CHECK(error_of("[[light]]\nname = \"a\"\n") == ":1:1: [[light]] needs 'type'");
-  CHECK(error_of("[[light]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = -2\n") == ":4:10: 'radius' is -2, but must be greater than 0");
+  CHECK(error_of("[[light]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = -2\n") ==
+        ":4:10: 'radius' is -2, but must be greater than 0");
 }
 
 TEST_CASE("files that are not there") {
-  CHECK_THROWS_WITH_AS((void)load_scene("nowhere.toml", {}), "nowhere.toml: cannot open: No such file or directory", Error);
-  CHECK(error_of(kWax + "albedo = 1\nmean_free_path = 1\n[[object]]\nmaterial = \"wax\"\nmesh = \"none.ply\"\n").find("none.ply: cannot open: No such file") != std::string::npos);
-  CHECK(error_of(kWax + "albedo = 1\nmean_free_path = 1\n[[object]]\nmaterial = \"wax\"\nmesh = \"none.fbx\"\n").find("none.fbx") != std::string::npos);
+  CHECK_THROWS_WITH_AS((void)load_scene("nowhere.toml", {}),
+                       "nowhere.toml: cannot open: No such file or directory", Error);
+  CHECK(
+      error_of(kWax + "albedo = 1\nmean_free_path = 1\n[[object]]\nmaterial = \"wax\"\nmesh = \"none.ply\"\n")
+          .find("none.ply: cannot open: No such file") != std::string::npos);
+  CHECK(
+      error_of(kWax + "albedo = 1\nmean_free_path = 1\n[[object]]\nmaterial = \"wax\"\nmesh = \"none.fbx\"\n")
+          .find("none.fbx") != std::string::npos);
 }
 
 TEST_CASE("edits set any value by name") {
-  const std::string text = kWax + "albedo = 0.5\nmean_free_path = 1\n[[light]]\nname = \"key\"\ntype = \"point\"\nposition = [0, 1, 0]\n"
-                                  "[[object]]\nname = \"ball\"\nshape = \"sphere\"\nmaterial = \"wax\"\n";
+  const std::string text =
+      kWax +
+      "albedo = 0.5\nmean_free_path = 1\n[[light]]\nname = \"key\"\ntype = \"point\"\nposition = [0, 1, 0]\n"
+      "[[object]]\nname = \"ball\"\nshape = \"sphere\"\nmaterial = \"wax\"\n";
   const Scene scene = load(text, {"film.width=32", "material.wax.g=0.4", "light.key.intensity=[1, 2, 3]",
                                   "object.ball.transform.scale=3", "material.wax.boundary=diffuse"});
   CHECK(scene.film.width == 32);
@@ -176,8 +202,10 @@ TEST_CASE("setting one member of a parametrisation converts the material, the ot
   CHECK(albedo.albedo == Rgb(Real(0.9)));
   for (int c = 0; c < 3; ++c) CHECK(albedo.sigma_t[c] == doctest::Approx(before.sigma_t[c]));
   const Medium sigma = medium_of(load(color, {"material.wax.sigma_a=0"}));
-  for (int c = 0; c < 3; ++c) CHECK(sigma.sigma_t[c] == doctest::Approx(before.sigma_t[c] * before.albedo[c]));
-  const Medium back = medium_of(load(kWax + "albedo = [0.9, 0.5, 0.99]\nmean_free_path = 0.1\ng = 0.6\n", {"material.wax.radius=0.2"}));
+  for (int c = 0; c < 3; ++c)
+    CHECK(sigma.sigma_t[c] == doctest::Approx(before.sigma_t[c] * before.albedo[c]));
+  const Medium back = medium_of(
+      load(kWax + "albedo = [0.9, 0.5, 0.99]\nmean_free_path = 0.1\ng = 0.6\n", {"material.wax.radius=0.2"}));
   const Rgb kept(Real(0.9), Real(0.5), Real(0.99));
   for (int c = 0; c < 3; ++c) {
     CHECK(back.sigma_t[c] == doctest::Approx(5));
@@ -187,12 +215,18 @@ TEST_CASE("setting one member of a parametrisation converts the material, the ot
 
 TEST_CASE("a bad edit is named as it was typed") {
   const std::string text = kWax + "albedo = 0.5\nmean_free_path = 1\n";
-  CHECK(error_of(text, {"material.wax.g=2"}) == "--set material.wax.g=2: 'g' is 2, but must be greater than -1 and less than 1");
-  CHECK(error_of(text, {"material.jade.g=0"}) == "--set material.jade.g=0: there is no material named 'jade'; known: wax");
-  CHECK(error_of(text, {"light.key.radiance=0"}) == "--set light.key.radiance=0: there is no light named 'key'; the scene has none");
-  CHECK(error_of(text, {"film.width"}) == "--set film.width: an edit must read PATH=VALUE, such as material.wax.g=0.4");
-  CHECK(error_of(text, {"film.widht=3"}) == "--set film.widht=3: unknown key 'widht' in [film]; did you mean 'width'?");
-  CHECK(error_of(text, {"material=3"}).starts_with("--set material=3: a path into a list must read material.NAME.KEY"));
+  CHECK(error_of(text, {"material.wax.g=2"}) ==
+        "--set material.wax.g=2: 'g' is 2, but must be greater than -1 and less than 1");
+  CHECK(error_of(text, {"material.jade.g=0"}) ==
+        "--set material.jade.g=0: there is no material named 'jade'; known: wax");
+  CHECK(error_of(text, {"light.key.radiance=0"}) ==
+        "--set light.key.radiance=0: there is no light named 'key'; the scene has none");
+  CHECK(error_of(text, {"film.width"}) ==
+        "--set film.width: an edit must read PATH=VALUE, such as material.wax.g=0.4");
+  CHECK(error_of(text, {"film.widht=3"}) ==
+        "--set film.widht=3: unknown key 'widht' in [film]; did you mean 'width'?");
+  CHECK(error_of(text, {"material=3"})
+            .starts_with("--set material=3: a path into a list must read material.NAME.KEY"));
 }
 
 TEST_CASE("the scenes of the project load without a warning, and a bare mesh gets a studio") {

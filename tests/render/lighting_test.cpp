@@ -1,5 +1,5 @@
-// Light found by sampling lights against light found by walking into it: the same emitter given as a light and as an
-// emissive object must give the same image.
+// Light found by sampling lights against light found by walking into it: the same emitter given as a light
+// and as an emissive object must give the same image.
 #include <doctest/doctest.h>
 
 #include "render/small_scene.h"
@@ -36,8 +36,8 @@ void check_same_image(const Material& body, std::uint64_t spp) {
   const Image a = resolve(render_spp(by_light, spp).film);
   const Image b = resolve(render_spp(by_walk, spp).film);
   const ZTest z = z_test(a, b);
-  INFO("worst pixel ", z.worst_pixel_z, ", worst block ", z.worst_block_z, " of ", z.block_threshold, ", image ",
-       z.image_z[0], " ", z.image_z[1], " ", z.image_z[2], " of ", z.image_threshold);
+  INFO("worst pixel ", z.worst_pixel_z, ", worst block ", z.worst_block_z, " of ", z.block_threshold,
+       ", image ", z.image_z[0], " ", z.image_z[1], " ", z.image_z[2], " of ", z.image_threshold);
   CHECK(z.passed);
 }
 
@@ -56,7 +56,9 @@ TEST_CASE("a lit body looks the same whether its light is sampled or found: matc
 }
 
 TEST_CASE("a lit body looks the same whether its light is sampled or found: matched, chromatic") {
-  check_same_image(translucent("jade", {Rgb(1, 3, 8), Rgb(Real(0.95), Real(0.8), Real(0.99)), Real(-0.3)}, Boundary::matched), 600);
+  check_same_image(translucent("jade", {Rgb(1, 3, 8), Rgb(Real(0.95), Real(0.8), Real(0.99)), Real(-0.3)},
+                               Boundary::matched),
+                   600);
 }
 
 TEST_CASE("a point light stands for a small ball of the same power") {
@@ -68,7 +70,8 @@ TEST_CASE("a point light stands for a small ball of the same power") {
   point.lights[0] = {"point", PointLight{center, Rgb(kPi)}, false};
   Job job = make_job(point, 2);
   job.seed = 1;
-  const ZTest z = z_test(resolve(render_spp(make_job(ball, 2), 300).film), resolve(render_spp(job, 300).film));
+  const ZTest z =
+      z_test(resolve(render_spp(make_job(ball, 2), 300).film), resolve(render_spp(job, 300).film));
   CHECK(z.passed);
 }
 

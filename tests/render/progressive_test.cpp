@@ -12,7 +12,8 @@ namespace {
 bool same_bytes(const Film& a, const Film& b) {
   if (a.pixels.size() != b.pixels.size()) return false;
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
-    if (a.pixels[i].mean != b.pixels[i].mean || a.pixels[i].m2 != b.pixels[i].m2 || a.pixels[i].count != b.pixels[i].count)
+    if (a.pixels[i].mean != b.pixels[i].mean || a.pixels[i].m2 != b.pixels[i].m2 ||
+        a.pixels[i].count != b.pixels[i].count)
       return false;
   return true;
 }

@@ -30,10 +30,13 @@ inline Scene mixed_scene() {
   scene.environment.radiance = Rgb(Real(0.2));
   scene.lights.push_back({"key", RectangleLight{{2, 4, 2}, {0, 0, 0}, {0, 1, 0}, 1, 1, Rgb(20)}, false});
   scene.lights.push_back({"point", PointLight{{-2, 2, 1}, Rgb(4)}, false});
-  scene.materials.push_back(translucent("jade", {Rgb(3, 6, 12), Rgb(Real(0.9), Real(0.95), Real(0.8)), Real(0.4)}, Boundary::matched));
-  scene.materials.push_back(translucent("wax", {Rgb(10), Rgb(Real(0.98), Real(0.9), Real(0.7)), 0}, Boundary::diffuse));
+  scene.materials.push_back(translucent(
+      "jade", {Rgb(3, 6, 12), Rgb(Real(0.9), Real(0.95), Real(0.8)), Real(0.4)}, Boundary::matched));
+  scene.materials.push_back(
+      translucent("wax", {Rgb(10), Rgb(Real(0.98), Real(0.9), Real(0.7)), 0}, Boundary::diffuse));
   scene.materials.push_back({"ground", DiffuseMaterial{Rgb(Real(0.4))}});
-  scene.objects.push_back({"knot", std::make_shared<const Mesh>(make_torus_knot(120, 16)), 0, {{-1, 0, 0}, {}, DVec3(1)}});
+  scene.objects.push_back(
+      {"knot", std::make_shared<const Mesh>(make_torus_knot(120, 16)), 0, {{-1, 0, 0}, {}, DVec3(1)}});
   scene.objects.push_back({"ball", SphereShape{}, 1, {{1.2, -0.2, 0}, {}, DVec3(0.8)}});
   scene.objects.push_back({"ground", SlabShape{}, 2, {{0, -2, 0}, {}, DVec3(1)}});
   return scene;

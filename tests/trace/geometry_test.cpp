@@ -36,7 +36,9 @@ TEST_CASE("a body far from the origin is hit exactly as at the origin, bit for b
       Random random = stream(1, 0, i);
       const double x = 2.4 * random.next() - 1.2;
       const double y = 2.4 * random.next() - 1.2;
-      const Ray ray{{std::ldexp(std::round(std::ldexp(x, 20)), -20), std::ldexp(std::round(std::ldexp(y, 20)), -20), 5}, {0, 0, -1}};
+      const Ray ray{
+          {std::ldexp(std::round(std::ldexp(x, 20)), -20), std::ldexp(std::round(std::ldexp(y, 20)), -20), 5},
+          {0, 0, -1}};
       const auto a = near_geometry.closest_hit(ray);
       const auto b = far_geometry.closest_hit({ray.origin + shift, ray.direction});
       REQUIRE(a.has_value() == b.has_value());
@@ -76,7 +78,8 @@ TEST_CASE("transforms scale, rotate and move, in that order") {
 }
 
 TEST_CASE("matched bodies let light through with their own transmittance, everything else stops it") {
-  for (const decltype(Object::shape)& shape : std::vector<decltype(Object::shape)>{SphereShape{}, BoxShape{}, SlabShape{}}) {
+  for (const decltype(Object::shape)& shape :
+       std::vector<decltype(Object::shape)>{SphereShape{}, BoxShape{}, SlabShape{}}) {
     const Geometry matched(one_object(shape, {}, Boundary::matched), 1);
     const Geometry diffuse(one_object(shape, {}, Boundary::diffuse), 1);
     const Ray down{{0, 5, 0}, {0, -1, 0}};
@@ -84,7 +87,8 @@ TEST_CASE("matched bodies let light through with their own transmittance, everyt
     for (int c = 0; c < 3; ++c) CHECK(through[c] == doctest::Approx(std::exp(-2.0 * (c + 1))).epsilon(1e-5));
     CHECK(matched.transmittance(down, 3.9) == Rgb(1));
     CHECK(matched.transmittance(down, 4.5).x == doctest::Approx(std::exp(-0.5)).epsilon(1e-5));
-    CHECK(matched.transmittance({{0, 0, 0}, {0, 1, 0}}, 0.25).x == doctest::Approx(std::exp(-0.25)).epsilon(1e-5));
+    CHECK(matched.transmittance({{0, 0, 0}, {0, 1, 0}}, 0.25).x ==
+          doctest::Approx(std::exp(-0.25)).epsilon(1e-5));
     CHECK(diffuse.transmittance(down, 100) == Rgb(0));
     CHECK(diffuse.transmittance(down, 3.9) == Rgb(1));
     CHECK(diffuse.transmittance({{0, Real(1.000001), 0}, {0, 1, 0}}, 100) == Rgb(1));
@@ -120,7 +124,8 @@ TEST_CASE("a ray that skims a mesh's rim never takes itself to be inside") {
   int hits = 0;
   for (std::uint32_t i = 0; i < 300000; ++i) {
     Random random = stream(4, 0, i);
-    // At corners and at the middles of edges, nearly tangentially: where a ray may slip between two triangles.
+    // At corners and at the middles of edges, nearly tangentially: where a ray may slip between two
+    // triangles.
     const Triangle& t = kKnot->triangles[random.next_bits() % kKnot->triangles.size()];
     const DVec3& a = kKnot->positions[t[0]];
     const DVec3& b = kKnot->positions[t[1]];

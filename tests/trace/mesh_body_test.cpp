@@ -27,7 +27,8 @@ Mesh make_box(const DVec3& low, const DVec3& high) {
   Mesh mesh;
   for (int i = 0; i < 8; ++i)
     mesh.positions.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-  const std::uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  const std::uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                     {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const auto& q : quads) {
     mesh.triangles.push_back({q[0], q[1], q[2]});
     mesh.triangles.push_back({q[0], q[2], q[3]});
@@ -72,7 +73,8 @@ struct UniformEntry {
     Real v = random.next();
     if (u + v > 1) u = 1 - u, v = 1 - v;
     const DVec3& a = mesh.positions[t[0]];
-    const DVec3 p = a + double{u} * (mesh.positions[t[1]] - a) + double{v} * (mesh.positions[t[2]] - a) - center;
+    const DVec3 p =
+        a + double{u} * (mesh.positions[t[1]] - a) + double{v} * (mesh.positions[t[2]] - a) - center;
     const Vec3 normal(glm::normalize(double_area(t)));
     const Real u1 = random.next();
     const Real u2 = random.next();
@@ -116,7 +118,8 @@ TEST_CASE("walks in a torus knot of 100k triangles have mean path 4V/S and none 
   const UniformEntry entry(mesh, center);
   const double expected = 4 * signed_volume(mesh) / surface_area(mesh);
   for (const auto& [path, g] : {std::pair(0.3, 0.8), std::pair(0.03, 0.0)}) {
-    const WalkModel model{{Rgb(static_cast<Real>(1 / path)), Rgb(1), static_cast<Real>(g)}, Estimator::implicit};
+    const WalkModel model{{Rgb(static_cast<Real>(1 / path)), Rgb(1), static_cast<Real>(g)},
+                          Estimator::implicit};
     Moments length;
     Moments order;
     std::uint64_t leaked = 0;
@@ -185,6 +188,7 @@ TEST_CASE("a step that ends at the surface is kept inside") {
 TEST_CASE("a mirroring map keeps the outside outside") {
   const Device device = make_device(1);
   DVec3 center;
-  const MeshBody body(device.get(), make_box({0, 0, 0}, {1, 1, 1}), DMat3(-1, 0, 0, 0, 1, 0, 0, 0, 1), center);
+  const MeshBody body(device.get(), make_box({0, 0, 0}, {1, 1, 1}), DMat3(-1, 0, 0, 0, 1, 0, 0, 0, 1),
+                      center);
   CHECK(body.first_crossing({0, 0, 0}, {1, 0, 0}, kFar).normal.x == doctest::Approx(1));
 }

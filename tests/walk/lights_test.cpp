@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
-#include "support/check_sampler.h"
 #include "math/warp.h"
 #include "stats/moments.h"
+#include "support/check_sampler.h"
 #include "walk/lights.h"
 
 using namespace meander;

@@ -37,7 +37,8 @@ TEST_CASE("a lobe with a tilted shading normal has the density it claims, all of
             const double s = std::sqrt(1 - z * z);
             sum += lobe.eval(Vec3(s * std::cos(phi), s * std::sin(phi), z));
           }
-        expected[row * kColumns + column] = sum / (kFine * kFine) * (2 * glm::pi<double>() / (kRows * kColumns));
+        expected[row * kColumns + column] =
+            sum / (kFine * kFine) * (2 * glm::pi<double>() / (kRows * kColumns));
         total += expected[row * kColumns + column];
       }
     CHECK(total == doctest::Approx(1).epsilon(2e-4));
@@ -51,6 +52,9 @@ TEST_CASE("a lobe is black below its surface, and its shading normal is turned t
   const LambertLobe lobe = make_lobe({0, 0, 1}, {0, Real(0.6), Real(-0.8)});
   CHECK(lobe.shading_normal.z > 0);
   CHECK(lobe.eval({0, 0, -1}) == 0);
-  check_extremes<2>([&](const auto& u) { return lobe.sample({u[0], u[1]}); },
-                    [](const Vec3& d) { return std::abs(glm::length(d) - 1) < 1e-5 && d.z >= 0; });
+  check_extremes<2>(
+      [&](const auto& u) {
+        return lobe.sample({u[0], u[1]});
+      },
+      [](const Vec3& d) { return std::abs(glm::length(d) - 1) < 1e-5 && d.z >= 0; });
 }

@@ -41,9 +41,9 @@ TEST_CASE("slabs reflect and transmit what adding-doubling says, by both estimat
     const bool diffuse = table.text(row, "incidence") == "diffuse";
     const Real mu = diffuse ? 0 : static_cast<Real>(table.number(row, "mu0"));
     for (const Estimator estimator : {Estimator::implicit, Estimator::analog}) {
-      const auto tally =
-          tally_walks(SlabWorld{static_cast<Real>(table.number(row, "tau"))},
-                      grey(table.number(row, "alpha"), table.number(row, "g"), estimator), 60000, row, enter(0, mu));
+      const auto tally = tally_walks(SlabWorld{static_cast<Real>(table.number(row, "tau"))},
+                                     grey(table.number(row, "alpha"), table.number(row, "g"), estimator),
+                                     60000, row, enter(0, mu));
       CAPTURE(row);
       scores.push_back(z_score(tally.back.mean, table.number(row, "R_total"), tally.back.standard_error()));
       const double transmitted = table.number(row, "T_total");
@@ -67,9 +67,11 @@ TEST_CASE("half-spaces reflect what Chandrasekhar's H-function says") {
     const auto normal = tally_walks(HalfSpaceWorld{}, grey(albedo, 0), 60000, 10 + row, enter(0, 1));
     scores.push_back(z_score(normal.back.mean, table.number(row, "R_mu0_1"), normal.back.standard_error()));
     const auto oblique = tally_walks(HalfSpaceWorld{}, grey(albedo, 0), 60000, 50 + row, enter(0, Real(0.1)));
-    scores.push_back(z_score(oblique.back.mean, table.number(row, "R_mu0_0.1"), oblique.back.standard_error()));
+    scores.push_back(
+        z_score(oblique.back.mean, table.number(row, "R_mu0_0.1"), oblique.back.standard_error()));
     const auto diffuse = tally_walks(HalfSpaceWorld{}, grey(albedo, 0), 60000, 90 + row, enter(0, 0));
-    scores.push_back(z_score(diffuse.back.mean, table.number(row, "R_diffuse"), diffuse.back.standard_error()));
+    scores.push_back(
+        z_score(diffuse.back.mean, table.number(row, "R_diffuse"), diffuse.back.standard_error()));
   }
   check_family(scores);
 }
@@ -85,7 +87,8 @@ TEST_CASE("spheres let out what the Peierls equation says") {
     const double escaped = tally.back.mean + tally.through.mean;
     const double error = std::hypot(tally.back.standard_error(), tally.through.standard_error());
     scores.push_back(z_score(escaped, table.number(row, "escape_fraction"), error));
-    scores.push_back(z_score(tally.absorbed.mean, table.number(row, "absorbed_fraction"), tally.absorbed.standard_error()));
+    scores.push_back(z_score(tally.absorbed.mean, table.number(row, "absorbed_fraction"),
+                             tally.absorbed.standard_error()));
   }
   check_family(scores);
 }
@@ -148,15 +151,19 @@ TEST_CASE("analog walks in an infinite medium are absorbed where theory says") {
       r2.add(glm::dot(walker.position, walker.position));
       collisions.add(walker.weight.order + 1);
     }
-    scores.push_back(z_score(z.mean, table.number(row, "mean_z_of_absorption_times_sigma_t"), z.standard_error()));
-    scores.push_back(z_score(r2.mean, table.number(row, "mean_r2_of_absorption_times_sigma_t2"), r2.standard_error()));
-    scores.push_back(z_score(collisions.mean, table.number(row, "mean_number_of_collisions_incl_absorption"), collisions.standard_error()));
+    scores.push_back(
+        z_score(z.mean, table.number(row, "mean_z_of_absorption_times_sigma_t"), z.standard_error()));
+    scores.push_back(
+        z_score(r2.mean, table.number(row, "mean_r2_of_absorption_times_sigma_t2"), r2.standard_error()));
+    scores.push_back(z_score(collisions.mean, table.number(row, "mean_number_of_collisions_incl_absorption"),
+                             collisions.standard_error()));
   }
   check_family(scores);
 }
 
 TEST_CASE("a chromatic walk gives each channel what a grey walk gives it, with weights of at most 3") {
-  const WalkModel model{{Rgb(Real(0.5), 2, 8), Rgb(Real(0.95), Real(0.8), Real(0.5)), Real(0.4)}, Estimator::implicit};
+  const WalkModel model{{Rgb(Real(0.5), 2, 8), Rgb(Real(0.95), Real(0.8), Real(0.5)), Real(0.4)},
+                        Estimator::implicit};
   const SlabWorld slab{1};
   Moments reflected[3];
   Moments transmitted[3];
@@ -185,8 +192,10 @@ TEST_CASE("a chromatic walk gives each channel what a grey walk gives it, with w
     WalkModel one = grey(model.medium.albedo[c], model.medium.g);
     one.medium.sigma_t = Rgb(model.medium.sigma_t[c]);
     const auto tally = tally_walks(slab, one, 300000, 20 + c, enter(0, 1));
-    scores.push_back(two_sample_z(reflected[c].mean, reflected[c].standard_error(), tally.back.mean, tally.back.standard_error()));
-    scores.push_back(two_sample_z(transmitted[c].mean, transmitted[c].standard_error(), tally.through.mean, tally.through.standard_error()));
+    scores.push_back(two_sample_z(reflected[c].mean, reflected[c].standard_error(), tally.back.mean,
+                                  tally.back.standard_error()));
+    scores.push_back(two_sample_z(transmitted[c].mean, transmitted[c].standard_error(), tally.through.mean,
+                                  tally.through.standard_error()));
   }
   check_family(scores);
 }

@@ -15,7 +15,7 @@ struct WalkTally {
   Moments through;      // weight through any other
   Moments unscattered;  // weight without a collision
   Moments absorbed;
-  Moments path;  // sum of weight times segment
+  Moments path;   // sum of weight times segment
   Moments order;  // scatterings per walk
 };
 
