@@ -74,11 +74,15 @@ struct Light {
   bool visible = false;
 };
 
-enum class Boundary { matched, diffuse };
+/// matched: no interface. diffuse: Lambertian on both sides, under a smooth interface when ior > 1. dielectric: an
+/// interface that refracts and reflects.
+enum class Boundary { matched, diffuse, dielectric };
 
 struct TranslucentMaterial {
   Medium medium;
   Boundary boundary = Boundary::matched;
+  double ior = 1;        // index inside over outside
+  double roughness = 0;  // of a dielectric, in [0, 1]; 0 is smooth
 };
 
 /// Opaque Lambertian of the given reflectance, on both sides.

@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "scene/crossing.h"
+#include "walk/interface.h"
 #include "walk/lights.h"
 #include "walk/lobe.h"
 #include "walk/random_walk.h"
@@ -47,6 +48,7 @@ struct PathOptions {
   Estimator estimator = Estimator::implicit;
   bool chromatic = false;                   // some medium's sigma_t differs between channels
   const std::atomic<bool>* stop = nullptr;  // asked every kStopInterval steps
+  bool sample_lights = true;                // false: lights are found by rays alone, which tests compare with
 };
 
 /// Traces paths in one scene; holds references only. One tracer a thread, for the counters' sake.
@@ -75,7 +77,7 @@ class PathTracer {
     Real light_choice = 1;
   };
   template <Sink S>
-  struct WalkObserver;
+  struct Passage;
 
   enum class Step { go_on, done, interrupted };
 
@@ -85,9 +87,6 @@ class PathTracer {
   [[nodiscard]] Step reflect(const SurfaceHit& hit, const LambertLobe& lobe, State& state, Random& random,
                              S& sink) noexcept;
   template <Sink S>
-  [[nodiscard]] Step cross_body(const SurfaceHit& hit, const TranslucentMaterial& material, State& state,
-                                Random& random, S& sink) noexcept;
-  template <Sink S>
   [[nodiscard]] bool collect_lights(const State& state, double distance, S& sink) const noexcept;
   template <Sink S>
   void collect_environment(const State& state, S& sink) const noexcept;
@@ -95,8 +94,25 @@ class PathTracer {
   void sample_direct(std::size_t light, const State& vertex, const Density& density, const Vec2& u,
                      S& sink) noexcept;
 
+  // The lights that a vertex samples.
+  [[nodiscard]] std::size_t sampled_lights() const noexcept {
+    return options_.sample_lights ? scene_.lights.size() : 0;
+  }
+  // The probability with which a vertex that samples every light, or one of them, samples any one.
+  [[nodiscard]] Real every_light() const noexcept { return options_.sample_lights ? Real(1) : Real(0); }
+  [[nodiscard]] Real one_light() const noexcept {
+    return sampled_lights() > 0 ? 1 / static_cast<Real>(sampled_lights()) : Real(0);
+  }
   [[nodiscard]] bool stop() const noexcept {
     return options_.stop && options_.stop->load(std::memory_order_relaxed);
+  }
+  // A direction that no light was sampled for: whatever light the ray finds counts in full.
+  static void send_specular(State& state, const DVec3& origin, const Vec3& direction) noexcept {
+    state.ray = {origin, direction};
+    state.vertex = origin;
+    state.pdf = 1;
+    state.light_choice = 0;
+    state.scattered = true;
   }
   [[nodiscard]] DVec3 outside(std::size_t object, const Vec3& point, const Vec3& normal) const noexcept {
     return geometry_.center(object) + DVec3(point + geometry_.offset(object, point) * normal);
@@ -110,4 +126,5 @@ class PathTracer {
 
 }  // namespace meander
 
+#include "walk/passage.inl"
 #include "walk/path.inl"

@@ -3,49 +3,6 @@
 
 namespace meander {
 
-namespace detail {
-
-/// What a path hands over for radiance found by its own ray, without competition from light sampling.
-[[nodiscard]] inline Contribution make_contribution(const PathWeight& weight, const Rgb& unweighted,
-                                                    int group) noexcept {
-  return {group, weight.order, unweighted, weight.albedo, weight.length};
-}
-
-[[nodiscard]] inline bool is_black(const Rgb& c) noexcept { return c.x == 0 && c.y == 0 && c.z == 0; }
-
-}  // namespace detail
-
-/// Samples a light at every collision of a walk in a matched body; silent elsewhere.
-template <SceneGeometry G>
-template <Sink S>
-struct PathTracer<G>::WalkObserver {
-  PathTracer& tracer;
-  S& sink;
-  Random& random;
-  std::size_t object;
-  Real g;
-  bool lit;
-
-  void segment(const Walker&, Real) const noexcept {}
-  void absorbed(const Rgb&) const noexcept {}
-  [[nodiscard]] bool stop() const noexcept { return tracer.stop(); }
-
-  void scattered(const Walker& walker) noexcept {
-    if (!lit) return;
-    const std::size_t count = tracer.scene_.lights.size();
-    const std::size_t light =
-        std::min(static_cast<std::size_t>(random.next() * static_cast<Real>(count)), count - 1);
-    const Real u1 = random.next();
-    const Real u2 = random.next();
-    State vertex;
-    vertex.weight = walker.weight;
-    vertex.vertex = tracer.geometry_.center(object) + DVec3(walker.position);
-    vertex.light_choice = 1 / static_cast<Real>(count);
-    const auto phase = [&](const Vec3& d) { return eval_henyey_greenstein(g, walker.direction, d); };
-    tracer.sample_direct(light, vertex, phase, {u1, u2}, sink);
-  }
-};
-
 template <SceneGeometry G>
 template <Sink S>
 bool PathTracer<G>::trace(const Ray& camera_ray, Random& random, S& sink) noexcept {
@@ -73,7 +30,7 @@ auto PathTracer<G>::advance(State& state, Random& random, S& sink) noexcept -> S
   }
   const auto& kind = scene_.materials[scene_.objects[hit->object].material].kind;
   if (const auto* translucent = std::get_if<TranslucentMaterial>(&kind))
-    return cross_body(*hit, *translucent, state, random, sink);
+    return Passage<S>{*this, *hit, *translucent, state, random, sink}.cross();
   if (const auto* emissive = std::get_if<EmissiveMaterial>(&kind)) {
     const Rgb radiance = state.weight.throughput * state.weight.free_path_weight() * emissive->radiance;
     sink.add(detail::make_contribution(state.weight, radiance, 0));
@@ -92,8 +49,8 @@ auto PathTracer<G>::reflect(const SurfaceHit& hit, const LambertLobe& lobe, Stat
   state.weight.vertex();
   if (!state.weight.survives_roulette(random, kRouletteThreshold)) return Step::done;
   state.vertex = outside(hit.object, hit.point, lobe.normal);
-  state.light_choice = 1;
-  for (std::size_t light = 0; light < scene_.lights.size(); ++light) {
+  state.light_choice = every_light();
+  for (std::size_t light = 0; light < sampled_lights(); ++light) {
     const Real u1 = random.next();
     const Real u2 = random.next();
     sample_direct(
@@ -105,61 +62,6 @@ auto PathTracer<G>::reflect(const SurfaceHit& hit, const LambertLobe& lobe, Stat
   state.pdf = lobe.eval(state.ray.direction);
   state.scattered = true;
   return Step::go_on;
-}
-
-template <SceneGeometry G>
-template <Sink S>
-auto PathTracer<G>::cross_body(const SurfaceHit& hit, const TranslucentMaterial& material, State& state,
-                               Random& random, S& sink) noexcept -> Step {
-  const bool matched = material.boundary == Boundary::matched;
-  Walker walker;
-  walker.weight = state.weight;
-  walker.direction = state.ray.direction;
-  if (hit.entering) {
-    walker.position = hit.point - geometry_.offset(hit.object, hit.point) * hit.normal;
-    if (!matched) {
-      const Real u1 = random.next();
-      const Real u2 = random.next();
-      walker.direction = make_lobe(-hit.normal, -hit.shading_normal).sample({u1, u2});
-      walker.weight.vertex();
-    }
-  } else {
-    walker.position = Vec3(state.ray.origin - geometry_.center(hit.object));
-  }
-  WalkObserver<S> observer{
-      *this, sink, random, hit.object, material.medium.g, matched && !scene_.lights.empty()};
-  const WalkModel model{material.medium, options_.estimator};
-  const WalkResult result = geometry_.with_body(
-      hit.object, [&](const auto& world) { return random_walk(world, model, walker, random, observer); });
-  ++counters_.walks;
-  counters_.steps += walker.steps;
-  if (geometry_.traces_rays(hit.object)) counters_.rays += walker.steps;
-  if (result.end == WalkEnd::interrupted) return Step::interrupted;
-  if (result.end == WalkEnd::absorbed) return Step::done;
-  const bool unscattered = walker.weight.order == state.weight.order;
-  state.weight = walker.weight;
-  if (result.end == WalkEnd::leaked) {
-    ++counters_.leaked_walks;
-    state.scattered |= !matched || !unscattered;
-    collect_environment(state, sink);
-    return Step::done;
-  }
-  if (matched) {
-    const DVec3 exit = outside(hit.object, result.crossing.point, result.crossing.normal);
-    if (!unscattered) {
-      state.vertex = geometry_.center(hit.object) + DVec3(result.crossing.point) -
-                     double{result.crossing.distance} * DVec3(walker.direction);
-      state.pdf = pdf_last_direction(walker, material.medium.g);
-      state.light_choice = 1 / static_cast<Real>(std::max<std::size_t>(scene_.lights.size(), 1));
-      state.scattered = true;
-    }
-    state.ray = {exit, walker.direction};
-    return Step::go_on;
-  }
-  SurfaceHit exit = hit;
-  exit.point = result.crossing.point;
-  return reflect(exit, make_lobe(result.crossing.normal, result.crossing.shading_normal), state, random,
-                 sink);
 }
 
 // Adds the lights that the ray meets before `distance`; true when a light that the camera sees ends the path.

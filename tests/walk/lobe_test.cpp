@@ -58,3 +58,43 @@ TEST_CASE("a lobe is black below its surface, and its shading normal is turned t
       },
       [](const Vec3& d) { return std::abs(glm::length(d) - 1) < 1e-5 && d.z >= 0; });
 }
+
+TEST_CASE("a refracted lobe sends out what its density says, and keeps the rest") {
+  // F_diffuse_internal of tests/reference/e1b_fresnel_averages.csv.
+  for (const auto& [ior, kept] :
+       {std::pair(Real(1.33), 0.471949148792699088), std::pair(Real(1.5), 0.59634575970771165)}) {
+    for (const Real tilt : {Real(0), Real(0.5)}) {
+      const RefractedLobe lobe(make_lobe({0, 0, 1}, {std::sin(tilt), 0, std::cos(tilt)}), ior);
+      constexpr int kCells = 21;
+      std::vector<double> observed(kCells + 1);
+      constexpr int kSamples = 200000;
+      for (std::uint32_t i = 0; i < kSamples; ++i) {
+        Random random = stream(2, 0, i);
+        const Real u1 = random.next();
+        const Real u2 = random.next();
+        const auto d = lobe.sample({u1, u2}, random.next());
+        if (d) REQUIRE(d->z >= 0);
+        observed[d ? std::min(static_cast<int>(d->z * kCells), kCells - 1) : kCells] += 1;
+      }
+      std::vector<double> expected(kCells + 1);
+      double total = 0;
+      for (int cell = 0; cell < kCells; ++cell) {
+        double sum = 0;
+        constexpr int kFine = 200;
+        for (int i = 0; i < kFine; ++i)
+          for (int j = 0; j < kFine; ++j) {
+            const double z = (cell + (i + 0.5) / kFine) / kCells;
+            const double phi = 2 * glm::pi<double>() * (j + 0.5) / kFine;
+            const double s = std::sqrt(1 - z * z);
+            sum += lobe.eval(Vec3(s * std::cos(phi), s * std::sin(phi), z));
+          }
+        expected[cell] = sum / (kFine * kFine) * (2 * glm::pi<double>() / kCells);
+        total += expected[cell];
+      }
+      expected[kCells] = kept;
+      CHECK(total + kept == doctest::Approx(1).epsilon(2e-4));
+      for (double& cell : expected) cell *= kSamples / (total + kept);
+      CHECK(chi_square_test(observed, expected).p > 1e-4);
+    }
+  }
+}

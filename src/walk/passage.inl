@@ -1,0 +1,189 @@
+// A path's passage through one translucent body: in through its boundary, the walk, and out again, or back in
+// as often as the boundary says. Included by walk/path.h.
+#pragma once
+
+namespace meander {
+
+namespace detail {
+
+/// What a path hands over for radiance found by its own ray, without competition from light sampling.
+[[nodiscard]] inline Contribution make_contribution(const PathWeight& weight, const Rgb& unweighted,
+                                                    int group) noexcept {
+  return {group, weight.order, unweighted, weight.albedo, weight.length};
+}
+
+[[nodiscard]] inline bool is_black(const Rgb& c) noexcept { return c.x == 0 && c.y == 0 && c.z == 0; }
+
+}  // namespace detail
+
+template <SceneGeometry G>
+template <Sink S>
+struct PathTracer<G>::Passage {
+  PathTracer& tracer;
+  const SurfaceHit& hit;
+  const TranslucentMaterial& material;
+  State& state;
+  Random& random;
+  S& sink;
+  Walker walker = {};
+
+  /// Takes the path from the hit to where it leaves the body, is mirrored off it, or ends.
+  [[nodiscard]] Step cross() noexcept {
+    walker.weight = state.weight;
+    walker.direction = state.ray.direction;
+    if (!enter()) return Step::go_on;
+    ++tracer.counters_.walks;
+    for (;;) {
+      const WalkResult result = walk();
+      if (result.end == WalkEnd::interrupted) return Step::interrupted;
+      if (result.end == WalkEnd::absorbed) return Step::done;
+      if (result.end == WalkEnd::leaked) return leak();
+      if (const std::optional<Step> step = leave(result.crossing)) return *step;
+    }
+  }
+
+  // What the walk reports as it goes.
+  void segment(const Walker&, Real) const noexcept {}
+  void absorbed(const Rgb&) const noexcept {}
+  [[nodiscard]] bool stop() const noexcept { return tracer.stop(); }
+
+  /// In a matched body one light is sampled at every collision.
+  void scattered(const Walker&) noexcept {
+    const std::size_t count = tracer.sampled_lights();
+    if (material.boundary != Boundary::matched || count == 0) return;
+    const std::size_t light =
+        std::min(static_cast<std::size_t>(random.next() * static_cast<Real>(count)), count - 1);
+    const Vec2 u = next_pair();
+    State vertex;
+    vertex.weight = walker.weight;
+    vertex.vertex = tracer.geometry_.center(hit.object) + DVec3(walker.position);
+    vertex.light_choice = tracer.one_light();
+    const auto phase = [&](const Vec3& d) {
+      return eval_henyey_greenstein(material.medium.g, walker.direction, d);
+    };
+    tracer.sample_direct(light, vertex, phase, u, sink);
+  }
+
+ private:
+  [[nodiscard]] Vec2 next_pair() noexcept {
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    return {u1, u2};
+  }
+  [[nodiscard]] Real ior() const noexcept { return static_cast<Real>(material.ior); }
+
+  void place_inside(const Vec3& point, const Vec3& normal) noexcept {
+    walker.position = point - tracer.geometry_.offset(hit.object, point) * normal;
+  }
+
+  // False when the boundary mirrors the path off.
+  [[nodiscard]] bool enter() noexcept {
+    if (!hit.entering) {  // the camera is inside
+      walker.position = Vec3(state.ray.origin - tracer.geometry_.center(hit.object));
+      return true;
+    }
+    place_inside(hit.point, hit.normal);
+    if (material.boundary == Boundary::matched) return true;
+    if (material.ior != 1) {
+      const InterfaceRay ray = meet_interface(walker.direction, hit.normal, hit.shading_normal, ior());
+      if (random.next() < ray.reflectance) {
+        send_specular(state, tracer.outside(hit.object, hit.point, hit.normal), ray.reflected);
+        return false;
+      }
+      walker.direction = ray.refracted;
+    }
+    if (material.boundary == Boundary::diffuse) send_inward(hit.normal, hit.shading_normal);
+    return true;
+  }
+
+  // A fresh cosine-distributed direction inside.
+  void send_inward(const Vec3& normal, const Vec3& shading_normal) noexcept {
+    walker.direction = make_lobe(-normal, -shading_normal).sample(next_pair());
+    walker.weight.vertex();
+  }
+
+  [[nodiscard]] WalkResult walk() noexcept {
+    const WalkModel model{material.medium, tracer.options_.estimator};
+    const std::uint64_t before = walker.steps;
+    const WalkResult result = tracer.geometry_.with_body(
+        hit.object, [&](const auto& world) { return random_walk(world, model, walker, random, *this); });
+    tracer.counters_.steps += walker.steps - before;
+    if (tracer.geometry_.traces_rays(hit.object)) tracer.counters_.rays += walker.steps - before;
+    return result;
+  }
+
+  // Lost through a hole: what is beyond counts as the environment.
+  [[nodiscard]] Step leak() noexcept {
+    ++tracer.counters_.leaked_walks;
+    state.scattered |= material.boundary != Boundary::matched || walker.weight.order != state.weight.order;
+    state.weight = walker.weight;
+    tracer.collect_environment(state, sink);
+    return Step::done;
+  }
+
+  // What the boundary does with a walk that reaches it from inside; nothing when it sends the walk back.
+  [[nodiscard]] std::optional<Step> leave(const Crossing& crossing) noexcept {
+    if (material.boundary == Boundary::matched) return leave_matched(crossing);
+    if (material.boundary == Boundary::dielectric) return leave_dielectric(crossing);
+    if (material.ior != 1) return leave_refracted(crossing);
+    state.weight = walker.weight;
+    SurfaceHit exit = hit;
+    exit.point = crossing.point;
+    return tracer.reflect(exit, make_lobe(crossing.normal, crossing.shading_normal), state, random, sink);
+  }
+
+  [[nodiscard]] Step leave_matched(const Crossing& crossing) noexcept {
+    if (walker.weight.order != state.weight.order) {
+      state.vertex = tracer.geometry_.center(hit.object) + DVec3(crossing.point) -
+                     double{crossing.distance} * DVec3(walker.direction);
+      state.pdf = pdf_last_direction(walker, material.medium.g);
+      state.light_choice = tracer.one_light();
+      state.scattered = true;
+    }
+    state.weight = walker.weight;
+    state.ray = {tracer.outside(hit.object, crossing.point, crossing.normal), walker.direction};
+    return Step::go_on;
+  }
+
+  [[nodiscard]] std::optional<Step> leave_dielectric(const Crossing& crossing) noexcept {
+    const InterfaceRay ray =
+        meet_interface(walker.direction, -crossing.normal, -crossing.shading_normal, 1 / ior());
+    if (random.next() < ray.reflectance) {
+      place_inside(crossing.point, crossing.normal);
+      walker.direction = ray.reflected;
+      return std::nullopt;
+    }
+    state.weight = walker.weight;
+    send_specular(state, tracer.outside(hit.object, crossing.point, crossing.normal), ray.refracted);
+    return Step::go_on;
+  }
+
+  // A Lambertian under a smooth interface: part of it is refracted out, where lights are sampled, the rest
+  // goes back.
+  [[nodiscard]] std::optional<Step> leave_refracted(const Crossing& crossing) noexcept {
+    walker.weight.vertex();
+    if (!walker.weight.survives_roulette(random, kRouletteThreshold)) return Step::done;
+    const RefractedLobe lobe(make_lobe(crossing.normal, crossing.shading_normal), ior());
+    State vertex;
+    vertex.weight = walker.weight;
+    vertex.vertex = tracer.outside(hit.object, crossing.point, crossing.normal);
+    vertex.light_choice = tracer.every_light();
+    for (std::size_t light = 0; light < tracer.sampled_lights(); ++light)
+      tracer.sample_direct(
+          light, vertex, [&](const Vec3& d) { return lobe.eval(d); }, next_pair(), sink);
+    const Vec2 u = next_pair();
+    const auto direction = lobe.sample(u, random.next());
+    if (!direction) {
+      place_inside(crossing.point, crossing.normal);
+      send_inward(crossing.normal, crossing.shading_normal);
+      return std::nullopt;
+    }
+    vertex.ray = {vertex.vertex, *direction};
+    vertex.pdf = lobe.eval(*direction);
+    vertex.scattered = true;
+    state = vertex;
+    return Step::go_on;
+  }
+};
+
+}  // namespace meander

@@ -1,0 +1,50 @@
+#include <doctest/doctest.h>
+
+#include "math/random.h"
+#include "math/warp.h"
+#include "walk/interface.h"
+
+using namespace meander;
+
+TEST_CASE("rays at an interface are unit, obey Snell's law, and stay on their sides") {
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    Random random = stream(1, 0, i);
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    const Vec3 n(0, 0, 1);
+    const Vec3 d = -sample_cosine_hemisphere({u1, u2});
+    const Real eta = i % 2 ? Real(1.5) : Real(1 / 1.5);
+    const InterfaceRay ray = meet_interface(d, n, eta);
+    CHECK(glm::length(ray.reflected) == doctest::Approx(1).epsilon(1e-6));
+    CHECK(ray.reflected.z >= 0);
+    CHECK(ray.reflected.x == doctest::Approx(d.x).epsilon(1e-5));
+    if (ray.reflectance == 1) {
+      CHECK(eta < 1);
+      continue;
+    }
+    CHECK(glm::length(ray.refracted) == doctest::Approx(1).epsilon(1e-6));
+    CHECK(ray.refracted.z <= 0);
+    CHECK(ray.refracted.x * eta == doctest::Approx(d.x).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("an interface of equal indices is not there") {
+  const Vec3 d = glm::normalize(Vec3(Real(0.3), Real(0.2), -1));
+  const InterfaceRay ray = meet_interface(d, {0, 0, 1}, 1);
+  CHECK(ray.reflectance == 0);
+  CHECK(glm::length(ray.refracted - d) < 1e-6);
+}
+
+TEST_CASE("a shading normal never sends a ray through the surface the wrong way") {
+  for (std::uint32_t i = 0; i < 50000; ++i) {
+    Random random = stream(2, 0, i);
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    const Vec3 d = -sample_cosine_hemisphere({u1, u2});
+    const Real tilt = Real(1.2) * random.next();
+    const Vec3 shading(std::sin(tilt), 0, std::cos(tilt));
+    const InterfaceRay ray = meet_interface(d, {0, 0, 1}, shading, i % 2 ? Real(1.5) : Real(1 / 1.5));
+    CHECK(ray.reflected.z > 0);
+    if (ray.reflectance < 1) CHECK(ray.refracted.z < 0);
+  }
+}
