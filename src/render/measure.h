@@ -5,6 +5,7 @@
 #include <atomic>
 #include <variant>
 
+#include "render/measure_bins.h"
 #include "scene/scene.h"
 #include "stats/moments.h"
 #include "walk/random_walk.h"
@@ -30,11 +31,13 @@ struct MeasureJob {
   double albedo = 0.9;
   double g = 0;
   Boundary boundary = Boundary::matched;
+  double ior = 1;  // index inside over outside, >= 1; 1 with a matched boundary
   Incidence incidence;
   Estimator estimator = Estimator::implicit;
   std::uint64_t walks = 1'000'000;
   std::uint64_t seed = 0;
   int threads = 1;
+  BinOptions bins;
 };
 
 /// Per incident flux, as the mean over the walks; totals include the unscattered part. For the sphere,
@@ -47,12 +50,13 @@ struct Measurement {
   Moments specular_reflectance;
   Moments absorptance;
   Moments mean_path_length;
+  ResolvedBins resolved;
   std::uint64_t walks = 0;
   std::uint64_t steps = 0;
   std::uint64_t leaked_walks = 0;
   double seconds = 0;
 
-  void merge(const Measurement& other) noexcept;
+  void merge(const Measurement& other);
 };
 
 /// Runs the walks; the result depends on nothing but the job's numbers, not on its threads. When `stop`
