@@ -26,12 +26,18 @@ struct MeasureOptions {
   std::optional<double> color;
   std::string inversion = "exact";
   std::string boundary = "matched";
+  double ior = 1;
+  BinOptions bins;
+  std::optional<double> radius;
+  std::optional<double> max_depth;
+  std::optional<double> max_path;
   std::string incidence = "normal";
   std::string estimator = "implicit";
   std::uint64_t walks = 1'000'000;
   std::uint64_t seed = 0;
   int threads = 0;
   bool json = false;
+  bool csv = false;
 };
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(Fault::input, "measure: " + message); }
@@ -99,6 +105,35 @@ std::vector<double> albedos_of(const MeasureOptions& o, double g) {
   return parse_range("--albedo", o.albedo.empty() ? "0.9" : o.albedo);
 }
 
+// Mean free paths in the unit that lengths are asked for in: a mm where coefficients are given per mm.
+double per_length(const MeasureOptions& o) {
+  return o.sigma_a || o.sigma_s ? o.sigma_a.value_or(0) + o.sigma_s.value_or(0) : 1;
+}
+
+// The bins' ranges in mean free paths.
+BinOptions bins_of(const MeasureOptions& o, const decltype(MeasureJob::shape)& shape) {
+  const double scale = per_length(o);
+  BinOptions bins = o.bins;
+  const bool sphere = std::holds_alternative<MeasuredSphere>(shape);
+  if (sphere && (bins.radial > 0 || bins.depth > 0))
+    refuse("--radial-bins and --depth-bins are for the slab and the half-space");
+  if (bins.radial > 0 && (o.incidence != "normal"))
+    refuse("--radial-bins need a pencil beam: --incidence normal");
+  if (o.radius) bins.radius = *o.radius * scale;
+  if (const auto* slab = std::get_if<MeasuredSlab>(&shape)) bins.max_depth = slab->tau;
+  if (o.max_depth) bins.max_depth = *o.max_depth * scale;
+  if (o.max_path) bins.max_path = *o.max_path * scale;
+  return bins;
+}
+
+Boundary boundary_of(const MeasureOptions& o) {
+  if (o.boundary == "matched" && o.ior != 1)
+    refuse("--ior other than 1 needs --boundary dielectric or diffuse");
+  return o.boundary == "matched"   ? Boundary::matched
+         : o.boundary == "diffuse" ? Boundary::diffuse
+                                   : Boundary::dielectric;
+}
+
 using Shape = decltype(MeasureJob::shape);
 
 std::vector<Shape> shapes_of(const MeasureOptions& o) {
@@ -128,7 +163,8 @@ std::vector<Shape> shapes_of(const MeasureOptions& o) {
 // Every combination of the ranges.
 std::vector<MeasureJob> jobs_of(const MeasureOptions& o) {
   MeasureJob job;
-  job.boundary = o.boundary == "diffuse" ? Boundary::diffuse : Boundary::matched;
+  job.boundary = boundary_of(o);
+  job.ior = o.ior;
   job.incidence = parse_incidence(o.incidence);
   job.estimator = o.estimator == "analog" ? Estimator::analog : Estimator::implicit;
   job.walks = o.walks;
@@ -136,6 +172,7 @@ std::vector<MeasureJob> jobs_of(const MeasureOptions& o) {
   job.threads = o.threads > 0 ? o.threads : hardware_threads();
   std::vector<MeasureJob> jobs;
   for (const Shape& shape : shapes_of(o)) {
+    job.bins = bins_of(o, shape);
     for (const double g : parse_range("--g", o.g)) {
       if (!(std::abs(g) < 1)) refuse("--g must be greater than -1 and less than 1");
       for (const double albedo : albedos_of(o, g)) {
@@ -157,17 +194,39 @@ int run_measure(const MeasureOptions& options) {
   const std::atomic<bool>& stop = watch_interrupts();
   std::vector<MeasuredCase> cases;
   for (const MeasureJob& job : jobs) {
-    cases.push_back({job, measure(job, stop)});
+    cases.push_back({job, measure(job, stop), per_length(options)});
     if (stop) std::cerr << "meander: interrupted after " << cases.back().result.walks << " walks\n";
     if (stop && cases.back().result.walks == 0) cases.pop_back();
     if (stop) break;
   }
   if (cases.empty()) throw Error(Fault::runtime, "interrupted before any walks were complete");
-  if (options.json)
+  if (options.json) {
     std::cout << measurement_json(cases, jobs.size() > 1);
-  else
-    std::cout << (jobs.size() > 1 ? measurement_csv(cases) : measurement_text(cases.front()));
+  } else if (jobs.size() > 1) {
+    std::cout << measurement_csv(cases);
+  } else {
+    const std::string bins = bins_csv(cases.front());
+    if (!options.csv) std::cout << measurement_text(cases.front()) << (bins.empty() ? "" : "\n") << bins;
+    if (options.csv) std::cout << (bins.empty() ? measurement_csv(cases) : bins);
+  }
   return 0;
+}
+
+void add_bin_options(CLI::App& verb, MeasureOptions& o) {
+  const auto count = CLI::Range(1, 100000);
+  verb.add_option("--angular-bins", o.bins.angular, "resolve the exitant radiance over the cosine")
+      ->check(count);
+  verb.add_option("--radial-bins", o.bins.radial, "resolve over the distance from a pencil beam")
+      ->check(count);
+  verb.add_option("--radius", o.radius, "range of the radial bins (10 mean free paths; mm with --sigma-*)")
+      ->check(greater_than(0));
+  verb.add_option("--depth-bins", o.bins.depth, "resolve absorption and fluence over depth")->check(count);
+  verb.add_option("--depth", o.max_depth,
+                  "range of the depth bins (the slab; 10 mean free paths; mm with --sigma-*)")
+      ->check(greater_than(0));
+  verb.add_option("--path-bins", o.bins.path, "resolve over the path length inside")->check(count);
+  verb.add_option("--path", o.max_path, "range of the path bins (50 mean free paths; mm with --sigma-*)")
+      ->check(greater_than(0));
 }
 
 }  // namespace
@@ -189,8 +248,10 @@ void add_measure_command(CLI::App& app, Action& action) {
   verb->add_option("--color", o->color, "surface colour instead of an albedo")->check(finite_number());
   verb->add_option("--inversion", o->inversion, "of the colour: exact, chiang or van_de_hulst (exact)")
       ->check(CLI::IsMember({"exact", "chiang", "van_de_hulst"}));
-  verb->add_option("--boundary", o->boundary, "matched or diffuse (matched)")
-      ->check(CLI::IsMember({"matched", "diffuse"}));
+  verb->add_option("--boundary", o->boundary, "matched, dielectric or diffuse (matched)")
+      ->check(CLI::IsMember({"matched", "dielectric", "diffuse"}));
+  verb->add_option("--ior", o->ior, "index inside over outside, 1 to 4 (1)")->check(CLI::Range(1.0, 4.0));
+  add_bin_options(*verb, *o);
   verb->add_option("--incidence", o->incidence, "normal, cosine=MU or diffuse (normal)");
   verb->add_option("--estimator", o->estimator, "analog or implicit (implicit)")
       ->check(CLI::IsMember({"analog", "implicit"}));
@@ -199,6 +260,7 @@ void add_measure_command(CLI::App& app, Action& action) {
   verb->add_option("--seed", o->seed, "random seed (0)");
   verb->add_option("--threads", o->threads, "threads (all)")->check(CLI::Range(1, 1024));
   verb->add_flag("--json", o->json, "print JSON");
+  verb->add_flag("--csv", o->csv, "print CSV: the bins where there are any");
   verb->callback([o, &action] { action = [o] { return run_measure(*o); }; });
 }
 

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/measure_bin_table.h"
+
 namespace meander {
 namespace {
 
@@ -40,6 +42,27 @@ std::string exact(double value) {
   return text;
 }
 
+// Mean paths of the light that came out, and the resolved bins.
+void add_paths_and_bins(nlohmann::ordered_json& json, const MeasuredCase& m) {
+  const ResolvedBins& r = m.result.resolved;
+  if (m.job.bins.path > 0) {
+    const double unit = 1 / m.per_length;
+    json["mean_path_reflected"] = {{"value", unit * r.mean_path_reflected.value()},
+                                   {"standard_error", unit * r.mean_path_reflected.standard_error()}};
+    json["mean_path_transmitted"] = {{"value", unit * r.mean_path_transmitted.value()},
+                                     {"standard_error", unit * r.mean_path_transmitted.standard_error()}};
+  }
+  for (const BinTable& table : bin_tables(m)) {
+    nlohmann::ordered_json bins = nlohmann::ordered_json::array();
+    for (const BinValue& bin : table.bins) {
+      nlohmann::ordered_json high = std::isfinite(bin.high) ? nlohmann::ordered_json(bin.high) : nullptr;
+      bins.push_back(
+          {{"low", bin.low}, {"high", high}, {"value", bin.value}, {"standard_error", bin.standard_error}});
+    }
+    json[table.quantity] = std::move(bins);
+  }
+}
+
 }  // namespace
 
 std::string measurement_text(const MeasuredCase& measured) {
@@ -68,6 +91,7 @@ std::string measurement_json(const std::vector<MeasuredCase>& cases, bool list) 
     }
     for (const Quantity& q : quantities_of(measured))
       one[q.name] = {{"value", q.moments->mean}, {"standard_error", q.moments->standard_error()}};
+    add_paths_and_bins(one, measured);
     one["walks"] = measured.result.walks;
     one["steps"] = measured.result.steps;
     one["seconds"] = measured.result.seconds;
@@ -88,6 +112,18 @@ std::string measurement_csv(const std::vector<MeasuredCase>& cases) {
       text << ',' << exact(q.moments->mean) << ',' << exact(q.moments->standard_error());
     text << ',' << m.result.walks << ',' << m.result.steps << ',' << exact(m.result.seconds) << '\n';
   }
+  return text.str();
+}
+
+std::string bins_csv(const MeasuredCase& measured) {
+  std::ostringstream text;
+  const auto tables = bin_tables(measured);
+  if (tables.empty()) return {};
+  text << "quantity,low,high,value,standard_error\n";
+  for (const BinTable& table : tables)
+    for (const BinValue& bin : table.bins)
+      text << table.quantity << ',' << exact(bin.low) << ',' << exact(bin.high) << ',' << exact(bin.value)
+           << ',' << exact(bin.standard_error) << '\n';
   return text.str();
 }
 

@@ -11,6 +11,7 @@ namespace meander {
 struct MeasuredCase {
   MeasureJob job;
   Measurement result;
+  double per_length = 1;  // mean free paths in the unit of lengths asked for: sigma_t per mm, or 1
 };
 
 [[nodiscard]] std::string measurement_text(const MeasuredCase& measured);
@@ -20,5 +21,11 @@ struct MeasuredCase {
 
 /// A header and one row a case; each quantity is followed by its standard error.
 [[nodiscard]] std::string measurement_csv(const std::vector<MeasuredCase>& cases);
+
+/// One row a bin: quantity, range of the bin, value, standard error. Exitant radiance per unit incident
+/// irradiance over the cosine; reflectance and transmittance per area over the radius; absorbed fraction and
+/// fluence over the depth; fraction of the light over the path length. The bin that ends at infinity holds
+/// the rest, as a fraction. Empty when no bins were asked for.
+[[nodiscard]] std::string bins_csv(const MeasuredCase& measured);
 
 }  // namespace meander
