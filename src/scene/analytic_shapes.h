@@ -14,11 +14,12 @@ namespace meander {
 
 /// The part near <= t <= far of a line o + t d that is inside a shape, with the outward gradients at its ends
 /// (not normalised).
+template <class T>
 struct Interval {
-  Real near;
-  Real far;
-  Vec3 near_gradient;
-  Vec3 far_gradient;
+  T near;
+  T far;
+  glm::vec<3, T> near_gradient;
+  glm::vec<3, T> far_gradient;
 };
 
 /// Unit sphere at the origin.
@@ -26,19 +27,21 @@ struct UnitSphere {
   /// Roots by the product rule, so that neither loses digits to cancellation; the discriminant from the
   /// closest point (Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere
   /// Intersection").
-  [[nodiscard]] static std::optional<Interval> inside(const Vec3& o, const Vec3& d) noexcept {
-    const Real dd = glm::dot(d, d);
-    const Real middle = -glm::dot(o, d) / dd;
-    const Vec3 closest = o + middle * d;
-    const Real discriminant = 1 - glm::dot(closest, closest);
+  template <class T>
+  [[nodiscard]] static std::optional<Interval<T>> inside(const glm::vec<3, T>& o,
+                                                         const glm::vec<3, T>& d) noexcept {
+    const T dd = glm::dot(d, d);
+    const T middle = -glm::dot(o, d) / dd;
+    const glm::vec<3, T> closest = o + middle * d;
+    const T discriminant = 1 - glm::dot(closest, closest);
     if (!(discriminant >= 0)) return std::nullopt;
-    const Real half = std::sqrt(discriminant / dd);
-    const Real product = (glm::dot(o, o) - 1) / dd;
-    const Real outer = middle + std::copysign(half, middle);
-    const Real inner = outer != 0 ? product / outer : -outer;
-    const Real near = std::min(outer, inner);
-    const Real far = std::max(outer, inner);
-    return Interval{near, far, o + near * d, o + far * d};
+    const T half = std::sqrt(discriminant / dd);
+    const T product = (glm::dot(o, o) - 1) / dd;
+    const T outer = middle + std::copysign(half, middle);
+    const T inner = outer != 0 ? product / outer : -outer;
+    const T near = std::min(outer, inner);
+    const T far = std::max(outer, inner);
+    return Interval<T>{near, far, o + near * d, o + far * d};
   }
   [[nodiscard]] static Vec3 snap(const Vec3& p, const Vec3&) noexcept { return glm::normalize(p); }
 };
@@ -46,13 +49,15 @@ struct UnitSphere {
 namespace detail {
 
 /// Clips an interval to |o_axis + t d_axis| <= 1.
-[[nodiscard]] inline bool clip_to_slab(Interval& interval, const Vec3& o, const Vec3& d, int axis) noexcept {
-  Vec3 gradient(0);
+template <class T>
+[[nodiscard]] inline bool clip_to_slab(Interval<T>& interval, const glm::vec<3, T>& o,
+                                       const glm::vec<3, T>& d, int axis) noexcept {
+  glm::vec<3, T> gradient(0);
   if (d[axis] == 0) return std::abs(o[axis]) <= 1;
-  const Real sign = std::copysign(Real(1), d[axis]);
+  const T sign = std::copysign(T(1), d[axis]);
   gradient[axis] = sign;
-  const Real near = (-sign - o[axis]) / d[axis];
-  const Real far = (sign - o[axis]) / d[axis];
+  const T near = (-sign - o[axis]) / d[axis];
+  const T far = (sign - o[axis]) / d[axis];
   if (near > interval.near) {
     interval.near = near;
     interval.near_gradient = -gradient;
@@ -69,17 +74,20 @@ namespace detail {
   return p + gradient * (1 - glm::dot(p, gradient));
 }
 
-[[nodiscard]] inline Interval whole_line() noexcept {
-  constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
-  return {-kInfinity, kInfinity, Vec3(0, 0, 1), Vec3(0, 0, 1)};
+template <class T>
+[[nodiscard]] inline Interval<T> whole_line() noexcept {
+  constexpr T kInfinity = std::numeric_limits<T>::infinity();
+  return {-kInfinity, kInfinity, {0, 0, 1}, {0, 0, 1}};
 }
 
 }  // namespace detail
 
 /// [-1, 1]^3.
 struct UnitBox {
-  [[nodiscard]] static std::optional<Interval> inside(const Vec3& o, const Vec3& d) noexcept {
-    Interval interval = detail::whole_line();
+  template <class T>
+  [[nodiscard]] static std::optional<Interval<T>> inside(const glm::vec<3, T>& o,
+                                                         const glm::vec<3, T>& d) noexcept {
+    Interval<T> interval = detail::whole_line<T>();
     for (int axis = 0; axis < 3; ++axis)
       if (!detail::clip_to_slab(interval, o, d, axis)) return std::nullopt;
     return interval;
@@ -91,8 +99,10 @@ struct UnitBox {
 
 /// |y| <= 1, unbounded in x and z.
 struct UnitSlab {
-  [[nodiscard]] static std::optional<Interval> inside(const Vec3& o, const Vec3& d) noexcept {
-    Interval interval = detail::whole_line();
+  template <class T>
+  [[nodiscard]] static std::optional<Interval<T>> inside(const glm::vec<3, T>& o,
+                                                         const glm::vec<3, T>& d) noexcept {
+    Interval<T> interval = detail::whole_line<T>();
     if (!detail::clip_to_slab(interval, o, d, 1)) return std::nullopt;
     return interval;
   }
@@ -107,9 +117,13 @@ struct AffineShape {
   Mat3 from_unit;
   Mat3 to_unit;
   Mat3 gradient_map;  // transpose of to_unit: takes gradients back
+  DMat3 precise_to_unit;
 
   explicit AffineShape(const DMat3& map)
-      : from_unit(map), to_unit(glm::inverse(map)), gradient_map(glm::transpose(glm::inverse(map))) {}
+      : from_unit(map),
+        to_unit(glm::inverse(map)),
+        gradient_map(glm::transpose(glm::inverse(map))),
+        precise_to_unit(glm::inverse(map)) {}
 
   /// A point that is on the surface but for rounding, put onto it.
   [[nodiscard]] Vec3 snap(const Vec3& p, const Vec3& gradient) const noexcept {
@@ -120,9 +134,13 @@ struct AffineShape {
     return glm::normalize(gradient_map * gradient);
   }
 
-  /// Where a line with unit direction is inside, distances in body units; normals are not set.
-  [[nodiscard]] std::optional<Interval> inside(const Vec3& o, const Vec3& d) const noexcept {
-    return Unit::inside(to_unit * o, to_unit * d);
+  /// Where a line with unit direction is inside, distances in body units; gradients are the unit shape's.
+  [[nodiscard]] std::optional<Interval<Real>> inside(const Vec3& o, const Vec3& d) const noexcept {
+    return Unit::template inside<Real>(to_unit * o, to_unit * d);
+  }
+  /// The same in double, for rays from far away.
+  [[nodiscard]] std::optional<Interval<double>> inside(const DVec3& o, const DVec3& d) const noexcept {
+    return Unit::template inside<double>(precise_to_unit * o, precise_to_unit * d);
   }
 
   /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. A

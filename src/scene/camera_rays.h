@@ -1,15 +1,26 @@
 // From a point on the film to a ray in the world.
 #pragma once
 
+#include <cstddef>
+
 #include "scene/scene.h"
 
 namespace meander {
+
+/// What a ray has just left: against that object alone its origin is moved by `offset`, which outweighs
+/// rounding, so that the surface is not met again and another one that touches it is.
+struct Departure {
+  static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
+  std::size_t object = kNowhere;
+  Vec3 offset{0};
+};
 
 /// A ray in world coordinates; the origin is in double so that a body far from the world's origin loses
 /// nothing.
 struct Ray {
   DVec3 origin{0};
   Vec3 direction{0, 0, 1};
+  Departure departure = {};
 };
 
 /// The camera's axes and extents for one film size, made once a job.

@@ -11,7 +11,8 @@ namespace meander {
 enum class CrossingKind : std::uint8_t {
   none,    // the step stays inside; `point` is where it ends
   exit,    // the step crosses the surface; `point` lies on it
-  leaked,  // the walk is outside without having crossed: the surface has a hole
+  leaked,  // the walk is outside without having crossed: the surface has a hole. `distance` leads out of the
+           // bounds
 };
 
 /// The outcome of one step in the body's own coordinates. `normal` (geometric) and `shading_normal` are unit,

@@ -74,8 +74,8 @@ struct Light {
   bool visible = false;
 };
 
-/// matched: no interface. diffuse: Lambertian on both sides, under a smooth interface when ior > 1. dielectric: an
-/// interface that refracts and reflects.
+/// matched: no interface. diffuse: Lambertian on both sides, under a smooth interface when ior > 1.
+/// dielectric: an interface that refracts and reflects.
 enum class Boundary { matched, diffuse, dielectric };
 
 struct TranslucentMaterial {

@@ -1,15 +1,17 @@
 #include "trace/geometry.h"
 
+#include "math/free_path.h"
+
 namespace meander {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Where a body stands, how large it is, and whether its surface bounds an inside.
+// A body and where it stands, as a ray in the world meets it.
 struct Placement {
   const DVec3& center;
   Real size;
-  bool closed;
+  bool closed;  // its surface bounds an inside
 };
 
 struct BodyHit {
@@ -19,56 +21,53 @@ struct BodyHit {
   Vec3 shading_normal;
 };
 
-// The ray's origin in a body's coordinates, moved along the ray to `start` while still in double, so that
-// what is left to single precision is of the body's own size.
-struct LocalRay {
-  double start;
-  Vec3 origin;
+// A ray as one body sees it. `slack` is how far behind the ray's origin it starts: a surface that faces the
+// ray there touches the one that the ray has just left, and counts as met at once; one that faces away lies
+// behind.
+struct Approach {
+  DVec3 origin;  // in the body's coordinates
   Vec3 direction;
+  double slack;
 };
 
-LocalRay localise(const Ray& ray, const DVec3& center, double start) noexcept {
-  return {start, Vec3(ray.origin - center + start * DVec3(ray.direction)), ray.direction};
-}
-
-// Where the ray comes nearest to the body's centre, if that is ahead.
-double closest_approach(const Ray& ray, const DVec3& center) noexcept {
-  return std::max(glm::dot(center - ray.origin, DVec3(ray.direction)), 0.0);
-}
-
 template <class Unit>
-std::optional<BodyHit> first_hit(const AffineShape<Unit>& shape, const Ray& ray, const Placement& placement,
+std::optional<BodyHit> first_hit(const AffineShape<Unit>& shape, const Approach& ray, const Placement&,
                                  double distance) noexcept {
-  const LocalRay local = localise(ray, placement.center, closest_approach(ray, placement.center));
-  const auto interval = shape.inside(local.origin, local.direction);
+  const auto interval = shape.inside(ray.origin, DVec3(ray.direction));
   if (!interval) return std::nullopt;
-  const bool enters = local.start + interval->near > 0;
-  const Real t = enters ? interval->near : interval->far;
-  if (!(local.start + t > 0) || local.start + t > distance) return std::nullopt;
-  const Vec3 gradient = enters ? interval->near_gradient : interval->far_gradient;
+  const bool enters = interval->near > 0;
+  const double t = enters ? interval->near : interval->far;
+  if (!(t > (enters ? 0 : 2 * ray.slack)) || t - ray.slack > distance) return std::nullopt;
+  const Vec3 gradient(enters ? interval->near_gradient : interval->far_gradient);
   const Vec3 normal = shape.normal_from(gradient);
-  return BodyHit{local.start + t, shape.snap(local.origin + t * local.direction, gradient), normal, normal};
+  const Vec3 point(ray.origin + t * DVec3(ray.direction));
+  return BodyHit{std::max(t - ray.slack, 0.0), shape.snap(point, gradient), normal, normal};
 }
 
 // Where the ray enters the mesh's bounds, 0 from within; nothing when it misses them.
-std::optional<double> bounds_entry(const Ray& ray, const DVec3& center, const Vec3& half_size) noexcept {
-  const DVec3 origin = ray.origin - center;
+std::optional<double> bounds_entry(const Approach& ray, const Vec3& half_size) noexcept {
   const DVec3 half = DVec3(half_size) * (1 + 0x1p-18) + DVec3(largest(half_size) * Real(0x1p-18));
   double near = 0;
   double far = kInfinity;
   for (int axis = 0; axis < 3; ++axis) {
     const double d = ray.direction[axis];
     if (d == 0) {
-      if (std::abs(origin[axis]) > half[axis]) return std::nullopt;
+      if (std::abs(ray.origin[axis]) > half[axis]) return std::nullopt;
       continue;
     }
-    const double first = (-std::copysign(half[axis], d) - origin[axis]) / d;
-    const double second = (std::copysign(half[axis], d) - origin[axis]) / d;
+    const double first = (-std::copysign(half[axis], d) - ray.origin[axis]) / d;
+    const double second = (std::copysign(half[axis], d) - ray.origin[axis]) / d;
     near = std::max(near, first);
     far = std::min(far, second);
   }
   if (near > far) return std::nullopt;
   return near;
+}
+
+// The ray's origin moved to where it enters the bounds while still in double, so that what is left to single
+// precision is of the body's own size.
+Vec3 local_origin(const Approach& ray, double entry) noexcept {
+  return Vec3(ray.origin + entry * DVec3(ray.direction));
 }
 
 // Whether a point lies inside a closed mesh, seen along a line: the surface behind it is left going backward.
@@ -79,51 +78,84 @@ bool is_inside(const MeshBody& mesh, const Vec3& p, const Vec3& d) noexcept {
 
 // On the rim of a mesh a ray may slip past the last triangle that faces it and meet the next one from behind.
 // Where a mesh is closed, such a hit from outside is no hit.
-std::optional<BodyHit> first_hit(const MeshBody& mesh, const Ray& ray, const Placement& placement,
+std::optional<BodyHit> first_hit(const MeshBody& mesh, const Approach& ray, const Placement& placement,
                                  double distance) noexcept {
-  const auto entry = bounds_entry(ray, placement.center, mesh.half_size());
+  const auto entry = bounds_entry(ray, mesh.half_size());
   if (!entry) return std::nullopt;
-  const double step = double{placement.size} * 0x1p-20;
-  for (double start = *entry; start <= distance;) {
-    const LocalRay local = localise(ray, placement.center, start);
-    const auto hit = mesh.closest(local.origin, local.direction, static_cast<Real>(distance - start));
+  const Vec3 origin = local_origin(ray, *entry);
+  const double reach = distance + ray.slack - *entry;
+  const Real step = placement.size * Real(0x1p-20);
+  for (Real start = 0; double{start} <= reach;) {
+    const auto hit =
+        mesh.closest(origin + start * ray.direction, ray.direction, static_cast<Real>(reach) - start);
     if (!hit) return std::nullopt;
-    const bool leaves = glm::dot(hit->normal, local.direction) >= 0;
-    const bool grazes =
-        placement.closed && leaves &&
-        (*entry > 0 || !is_inside(mesh, localise(ray, placement.center, 0).origin, local.direction));
-    if (!grazes) return BodyHit{start + hit->distance, hit->point, hit->normal, hit->shading_normal};
-    start += hit->distance + step;
+    start += hit->distance;
+    const double met = *entry + double{start};
+    const bool leaves = glm::dot(hit->normal, ray.direction) >= 0;
+    const bool behind = leaves && ray.slack > 0 && met <= 2 * ray.slack;
+    const bool grazes = leaves && placement.closed && (*entry > 0 || !is_inside(mesh, origin, ray.direction));
+    if (!behind && !grazes)
+      return BodyHit{std::max(met - ray.slack, 0.0), hit->point, hit->normal, hit->shading_normal};
+    start += step;
   }
   return std::nullopt;
 }
 
+// The length of a segment that lies inside a closed body.
 template <class Unit>
-bool blocks(const AffineShape<Unit>& shape, const Ray& ray, const Placement& placement,
-            double distance) noexcept {
-  return first_hit(shape, ray, placement, distance).has_value();
+double length_inside(const AffineShape<Unit>& shape, const Approach& ray, const Placement&,
+                     double distance) noexcept {
+  const auto interval = shape.inside(ray.origin, DVec3(ray.direction));
+  if (!interval) return 0;
+  return std::max(std::min(interval->far, distance + ray.slack) - std::max(interval->near, ray.slack), 0.0);
 }
 
-bool blocks(const MeshBody& mesh, const Ray& ray, const Placement& placement, double distance) noexcept {
-  const auto entry = bounds_entry(ray, placement.center, mesh.half_size());
-  if (!entry || *entry > distance) return false;
-  const LocalRay local = localise(ray, placement.center, *entry);
-  return mesh.occluded(local.origin, local.direction, static_cast<Real>(distance - *entry));
+double length_inside(const MeshBody& mesh, const Approach& ray, const Placement& placement,
+                     double distance) noexcept {
+  double inside = 0;
+  double done = 0;
+  for (Approach rest = ray; done < distance;) {
+    const auto hit = first_hit(mesh, rest, placement, kInfinity);
+    if (!hit) break;
+    if (glm::dot(hit->normal, ray.direction) > 0) inside += std::min(hit->distance, distance - done);
+    // Past the surface just met, by what outweighs its rounding; from the point itself, so that no distance
+    // is too far.
+    const double step = double{placement.size} * 0x1p-20;
+    done += hit->distance + step;
+    rest = {DVec3(hit->point) + step * DVec3(ray.direction), ray.direction, 0};
+  }
+  return inside;
+}
+
+template <class Shape>
+bool blocks(const Shape& shape, const Approach& ray, const Placement& placement, double distance) noexcept {
+  return first_hit(shape, ray, placement, distance).has_value();
 }
 
 Real size_of(const DMat3& map) noexcept {
   return static_cast<Real>(std::max({glm::length(map[0]), glm::length(map[1]), glm::length(map[2])}));
 }
 
-template <class Body>
-Placement placement_of(const Body& body) noexcept {
-  return {body.center, body.size, body.closed};
-}
-
 }  // namespace
 
 Geometry::Geometry(const Scene& scene, int threads) : device_(make_device(threads)) {
   for (const Object& object : scene.objects) bodies_.push_back(make_body(object, scene));
+  for (Body& body : bodies_) body.holds_light = body.matched && holds_light(body, scene);
+}
+
+// Whether a light with an extent may lie, partly at least, inside a body: whether their bounding spheres
+// meet.
+bool Geometry::holds_light(const Body& body, const Scene& scene) noexcept {
+  const double reach = std::holds_alternative<SlabBody>(body.shape) ? kInfinity : 1.7321 * double{body.size};
+  for (const Light& light : scene.lights) {
+    if (const auto* sphere = std::get_if<SphereLight>(&light.shape))
+      if (glm::length(sphere->center - body.center) <= reach + sphere->radius) return true;
+    if (const auto* rectangle = std::get_if<RectangleLight>(&light.shape))
+      if (glm::length(rectangle->center - body.center) <=
+          reach + 0.5 * std::hypot(rectangle->width, rectangle->height))
+        return true;
+  }
+  return false;
 }
 
 Geometry::Body Geometry::make_body(const Object& object, const Scene& scene) const {
@@ -134,24 +166,47 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene) con
   const Rgb sigma_t = matched ? translucent->medium.sigma_t : Rgb(0);
   const DVec3& origin = object.transform.translate;
   if (std::holds_alternative<SphereShape>(object.shape))
-    return {SphereBody(map), origin, size_of(map), closed, matched, sigma_t};
+    return {SphereBody(map), origin, size_of(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<BoxShape>(object.shape))
-    return {BoxBody(map), origin, size_of(map), closed, matched, sigma_t};
+    return {BoxBody(map), origin, size_of(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<SlabShape>(object.shape))
-    return {SlabBody(map), origin, size_of(map), closed, matched, sigma_t};
+    return {SlabBody(map), origin, size_of(map), closed, matched, false, sigma_t};
   DVec3 center(0);
   MeshBody mesh(device_.get(), *std::get<std::shared_ptr<const Mesh>>(object.shape), map, center);
   const Real size = largest(mesh.half_size());
-  return {std::move(mesh), origin + center, size, closed, matched, sigma_t};
+  return {std::move(mesh), origin + center, size, closed, matched, false, sigma_t};
+}
+
+Real Geometry::offset(std::size_t object, const Vec3& point) const noexcept {
+  const Body& body = bodies_[object];
+  if (std::holds_alternative<MeshBody>(body.shape)) return body.size * Real(0x1p-20);
+  return std::max(largest(glm::abs(point)), body.size) * Real(0x1p-22);
+}
+
+// f(shape, approach, placement) for one body.
+template <class F>
+auto Geometry::approach(std::size_t object, const Ray& ray, const F& f) const noexcept {
+  const Body& body = bodies_[object];
+  const Placement placement{body.center, body.size, body.closed};
+  Approach seen{ray.origin - body.center, ray.direction, 0};
+  if (ray.departure.object == object) {
+    seen.origin += DVec3(ray.departure.offset);
+  } else if (ray.departure.object != Departure::kNowhere) {
+    const double rounding = offset(object, Vec3(seen.origin));
+    seen.slack = 2 * (double{glm::length(ray.departure.offset)} + rounding);
+    seen.origin -= seen.slack * DVec3(ray.direction);
+  }
+  return std::visit([&](const auto& shape) { return f(shape, seen, placement); }, body.shape);
 }
 
 std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray) const noexcept {
   std::optional<SurfaceHit> closest;
   double distance = kInfinity;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Body& body = bodies_[i];
-    const auto hit = std::visit(
-        [&](const auto& shape) { return first_hit(shape, ray, placement_of(body), distance); }, body.shape);
+    const auto hit =
+        approach(i, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
+          return first_hit(shape, seen, placement, distance);
+        });
     if (!hit) continue;
     distance = hit->distance;
     closest = SurfaceHit{
@@ -160,34 +215,24 @@ std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray) const noexcept {
   return closest;
 }
 
-// The length of a segment inside a matched body, surface by surface.
-Real Geometry::length_inside(const Body& body, const Ray& ray, double distance) noexcept {
-  double inside = 0;
-  double done = 0;  // everything before this distance is accounted for
-  while (done < distance) {
-    const Ray rest{ray.origin + done * DVec3(ray.direction), ray.direction};
-    const auto hit = std::visit(
-        [&](const auto& shape) { return first_hit(shape, rest, placement_of(body), kInfinity); }, body.shape);
-    if (!hit) break;
-    if (glm::dot(hit->normal, ray.direction) > 0) inside += std::min(hit->distance, distance - done);
-    // Past the surface just met, by what outweighs its rounding.
-    done += hit->distance + body.size * 0x1p-20;
-  }
-  return static_cast<Real>(inside);
-}
-
 Rgb Geometry::transmittance(const Ray& ray, double distance) const noexcept {
-  for (const Body& body : bodies_) {
-    if (body.matched) continue;
-    const bool blocked = std::visit(
-        [&](const auto& shape) { return blocks(shape, ray, placement_of(body), distance); }, body.shape);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].matched) continue;
+    const bool blocked =
+        approach(i, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
+          return blocks(shape, seen, placement, distance);
+        });
     if (blocked) return Rgb(0);
   }
   Rgb through(1);
-  for (const Body& body : bodies_) {
-    if (!body.matched) continue;
-    const Real length = length_inside(body, ray, distance);
-    if (length > 0) through *= glm::exp(-body.sigma_t * length);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].matched) continue;
+    const double length =
+        approach(i, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
+          return length_inside(shape, seen, placement, distance);
+        });
+    for (int c = 0; c < 3; ++c)
+      through[c] *= meander::transmittance(bodies_[i].sigma_t[c], static_cast<Real>(length));
   }
   return through;
 }

@@ -29,9 +29,10 @@ class Geometry {
   [[nodiscard]] const DVec3& center(std::size_t object) const noexcept { return bodies_[object].center; }
 
   /// The distance that outweighs the rounding of a point of the object, given in its own coordinates.
-  [[nodiscard]] Real offset(std::size_t object, const Vec3& point) const noexcept {
-    return std::max(bodies_[object].size, largest(glm::abs(point))) * Real(0x1p-20);
-  }
+  [[nodiscard]] Real offset(std::size_t object, const Vec3& point) const noexcept;
+
+  /// Whether the object is matched and a light with an extent may lie inside.
+  [[nodiscard]] bool holds_light(std::size_t object) const noexcept { return bodies_[object].holds_light; }
 
   /// Whether a step of a walk in the object costs a ray.
   [[nodiscard]] bool traces_rays(std::size_t object) const noexcept {
@@ -51,11 +52,14 @@ class Geometry {
     Real size;
     bool closed;   // it holds a medium: its surface has an inside
     bool matched;  // light passes it unscattered
+    bool holds_light;
     Rgb sigma_t;
   };
 
   [[nodiscard]] Body make_body(const Object& object, const Scene& scene) const;
-  [[nodiscard]] static Real length_inside(const Body& body, const Ray& ray, double distance) noexcept;
+  [[nodiscard]] static bool holds_light(const Body& body, const Scene& scene) noexcept;
+  template <class F>
+  [[nodiscard]] auto approach(std::size_t object, const Ray& ray, const F& f) const noexcept;
 
   Device device_;
   std::vector<Body> bodies_;

@@ -14,6 +14,10 @@ void check_device(RTCDevice device, const char* doing) {
     throw Error(Fault::runtime, std::string("Embree failed with code ") + std::to_string(code) + " " + doing);
 }
 
+// Of a size about 1: how far around a point rounding is looked for, and what outweighs a point's rounding.
+constexpr Real kMargin = Real(0x1p-14);
+constexpr Real kOffset = Real(0x1p-21);
+
 RTCRayHit make_query(const Vec3& o, const Vec3& d, Real distance) noexcept {
   RTCRayHit query;
   query.ray.org_x = static_cast<float>(o.x);
@@ -72,10 +76,9 @@ MeshBody::MeshBody(RTCDevice device, const Mesh& mesh, const DMat3& map, DVec3& 
   }
   center = 0.5 * (low + high);
   half_size_ = Vec3(0.5 * (high - low));
-  const Real size = largest(half_size_);
-  margin_ = size * Real(0x1p-14);
-  offset_ = size * Real(0x1p-21);
-  for (const DVec3& p : mapped) positions_.emplace_back(p - center);
+  scale_ = std::exp2(std::floor(std::log2(largest(half_size_))) + 1);
+  inverse_scale_ = 1 / scale_;
+  for (const DVec3& p : mapped) positions_.emplace_back((p - center) * double{inverse_scale_});
   positions_.emplace_back(0);
   const DMat3 normal_map = glm::transpose(glm::inverse(map));
   for (const glm::vec3& n : mesh.normals) normals_.emplace_back(glm::normalize(normal_map * DVec3(n)));
@@ -119,51 +122,60 @@ MeshHit MeshBody::resolve(const RTCRayHit& query) const noexcept {
 }
 
 std::optional<MeshHit> MeshBody::closest(const Vec3& o, const Vec3& d, Real distance) const noexcept {
-  RTCRayHit query = make_query(o, d, distance);
+  RTCRayHit query = make_query(o * inverse_scale_, d, distance * inverse_scale_);
   intersect(scene_.get(), query, nullptr);
   if (!is_hit(query)) return std::nullopt;
-  return resolve(query);
+  MeshHit hit = resolve(query);
+  hit.distance *= scale_;
+  hit.point *= scale_;
+  return hit;
 }
 
-bool MeshBody::occluded(const Vec3& o, const Vec3& d, Real distance) const noexcept {
-  RTCRayHit query = make_query(o, d, distance);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(scene_.get(), &context, &query.ray);
-  return query.ray.tfar < 0;
+Crossing MeshBody::first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+  Crossing crossing = cross(p * inverse_scale_, d, distance * inverse_scale_);
+  crossing.distance = crossing.kind == CrossingKind::none ? distance : crossing.distance * scale_;
+  crossing.point *= scale_;
+  return crossing;
 }
 
 // Whether a point next to the surface lies outside of it: whether the nearest surface behind it, seen along
 // its direction, was an exit.
 bool MeshBody::is_outside(const Vec3& p, const Vec3& d) const noexcept {
-  RTCRayHit query = make_query(p, -d, 2 * margin_);
+  RTCRayHit query = make_query(p, -d, 2 * kMargin);
   intersect(scene_.get(), query, nullptr);
   if (!is_hit(query)) return false;
   return glm::dot(d, Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z)) > 0;
 }
 
-Crossing MeshBody::first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+// A step that meets no exit: inside, unless it ends beyond the bounds. Then it has leaked, and `distance` is
+// how far the bounds are.
+Crossing MeshBody::without_exit(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+  const Vec3 half = half_size_ * inverse_scale_ + kMargin;
+  const Vec3 end = p + distance * d;
+  if (largest(glm::abs(end) - half) <= 0) return {CrossingKind::none, distance, end, {}, {}};
+  Real far = distance;
+  for (int axis = 0; axis < 3; ++axis)
+    if (d[axis] != 0) far = std::min(far, (std::copysign(half[axis], d[axis]) - p[axis]) / d[axis]);
+  return {CrossingKind::leaked, std::max(far, Real(0)), p, {}, {}};
+}
+
+Crossing MeshBody::cross(const Vec3& p, const Vec3& d, Real distance) const noexcept {
   // Looking from a little behind finds the exit that rounding may have carried the point across; looking a
   // little too far finds the surface that the end of the step may round across.
-  RTCRayHit query = make_query(p - margin_ * d, d, distance + 2 * margin_);
+  RTCRayHit query = make_query(p - kMargin * d, d, distance + 2 * kMargin);
   intersect(scene_.get(), query, accept_exits);
-  if (is_hit(query) && query.ray.tfar < margin_ && !is_outside(p, d)) {
-    query = make_query(p, d, distance + margin_);  // a thin gap behind: that exit belongs to another wall
+  if (is_hit(query) && query.ray.tfar < kMargin && !is_outside(p, d)) {
+    query = make_query(p, d, distance + kMargin);  // a thin gap behind: that exit belongs to another wall
     intersect(scene_.get(), query, accept_exits);
-    query.ray.tfar += static_cast<float>(margin_);
+    query.ray.tfar += static_cast<float>(kMargin);
   }
-  if (!is_hit(query)) {
-    const Vec3 end = p + distance * d;
-    const Vec3 beyond = glm::abs(end) - half_size_;
-    if (!(largest(beyond) <= margin_)) return {CrossingKind::leaked, distance, p, {}, {}};
-    return {CrossingKind::none, distance, end, {}, {}};
-  }
-  const Real exit_distance = std::max(Real(query.ray.tfar) - margin_, Real(0));
+  if (!is_hit(query)) return without_exit(p, d, distance);
+  const Real exit_distance = std::max(Real(query.ray.tfar) - kMargin, Real(0));
   if (distance < exit_distance) {
     const Vec3 normal = glm::normalize(Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
-    const bool at_surface = (exit_distance - distance) * glm::dot(d, normal) < 2 * offset_;
+    const bool at_surface = (exit_distance - distance) * glm::dot(d, normal) < kOffset;
     const Vec3 end = p + distance * d;
-    return {CrossingKind::none, distance, at_surface ? end - offset_ * normal : end, {}, {}};
+    return {CrossingKind::none, distance, at_surface ? end - kOffset * normal : end, {}, {}};
   }
   const MeshHit hit = resolve(query);
   return {CrossingKind::exit, exit_distance, hit.point, hit.normal, hit.shading_normal};

@@ -47,14 +47,15 @@ class MeshBody {
   /// The first surface within `distance` along a ray, from either side.
   [[nodiscard]] std::optional<MeshHit> closest(const Vec3& o, const Vec3& d, Real distance) const noexcept;
 
-  [[nodiscard]] bool occluded(const Vec3& o, const Vec3& d, Real distance) const noexcept;
-
   /// Half the size of the bounds along each axis.
   [[nodiscard]] const Vec3& half_size() const noexcept { return half_size_; }
 
  private:
+  // In units of scale_.
   [[nodiscard]] MeshHit resolve(const RTCRayHit& query) const noexcept;
   [[nodiscard]] bool is_outside(const Vec3& p, const Vec3& d) const noexcept;
+  [[nodiscard]] Crossing cross(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+  [[nodiscard]] Crossing without_exit(const Vec3& p, const Vec3& d, Real distance) const noexcept;
 
   std::vector<glm::vec3> positions_;  // one spare at the end: Embree reads 16 bytes a vertex
   std::vector<Triangle> triangles_;
@@ -62,8 +63,9 @@ class MeshBody {
   std::vector<Triangle> normal_triangles_;
   std::unique_ptr<RTCSceneTy, SceneRelease> scene_;
   Vec3 half_size_{0};
-  Real margin_ = 0;  // how far around a point rounding is looked for: 2^-14 of the size
-  Real offset_ = 0;  // what outweighs the rounding of a point: 2^-21 of the size
+  // Inside, lengths are divided by a power of two, exactly, so that every mesh is of a size about 1.
+  Real scale_ = 1;
+  Real inverse_scale_ = 1;
 };
 
 }  // namespace meander

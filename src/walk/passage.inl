@@ -43,7 +43,9 @@ struct PathTracer<G>::Passage {
   }
 
   // What the walk reports as it goes.
-  void segment(const Walker&, Real) const noexcept {}
+  void segment(const Walker&, Real distance) noexcept {
+    if (tracer.geometry_.holds_light(hit.object)) collect_inside(distance);
+  }
   void absorbed(const Rgb&) const noexcept {}
   [[nodiscard]] bool stop() const noexcept { return tracer.stop(); }
 
@@ -72,8 +74,38 @@ struct PathTracer<G>::Passage {
   }
   [[nodiscard]] Real ior() const noexcept { return static_cast<Real>(material.ior); }
 
+  // Starts the walk at a point of the surface. Only where it sets out so flat that rounding might carry it
+  // past a mesh is it moved in: elsewhere that would be a depth that the medium does not have.
   void place_inside(const Vec3& point, const Vec3& normal) noexcept {
-    walker.position = point - tracer.geometry_.offset(hit.object, point) * normal;
+    constexpr Real kFlat = Real(0x1p-7);
+    const bool flat = glm::dot(walker.direction, normal) > -kFlat;
+    const bool exact = !tracer.geometry_.traces_rays(hit.object);
+    walker.position = exact || !flat ? point : point - tracer.geometry_.offset(hit.object, point) * normal;
+  }
+
+  // Lights that the segment ahead passes inside the body. Those do not end a path, not even before the
+  // camera.
+  void collect_inside(Real distance) noexcept {
+    State found = state;
+    found.ray = {tracer.geometry_.center(hit.object) + DVec3(walker.position), walker.direction};
+    if (walker.weight.order != state.weight.order) {
+      found.vertex = found.ray.origin;
+      found.pdf = pdf_last_direction(walker, material.medium.g);
+      found.light_choice = tracer.one_light();
+      found.scattered = true;
+    }
+    const Ray from_vertex{found.vertex, walker.direction};
+    const double behind = glm::dot(found.ray.origin - found.vertex, DVec3(walker.direction));
+    for (std::size_t i = 0; i < tracer.scene_.lights.size(); ++i) {
+      if (!found.scattered && !tracer.scene_.lights[i].visible) continue;
+      const auto seen = hit_light(tracer.scene_.lights[i], from_vertex);
+      if (!seen || seen->distance < behind || seen->distance - behind >= double{distance}) continue;
+      found.weight = walker.weight;
+      found.weight.pass(material.medium, static_cast<Real>(seen->distance - behind));
+      if (!found.scattered) found.light_choice = 0;
+      if (!found.scattered) found.pdf = 1;
+      tracer.collect_light(found, i, *seen, sink);
+    }
   }
 
   // False when the boundary mirrors the path off.
@@ -82,17 +114,16 @@ struct PathTracer<G>::Passage {
       walker.position = Vec3(state.ray.origin - tracer.geometry_.center(hit.object));
       return true;
     }
-    place_inside(hit.point, hit.normal);
-    if (material.boundary == Boundary::matched) return true;
-    if (material.ior != 1) {
+    if (material.boundary != Boundary::matched && material.ior != 1) {
       const InterfaceRay ray = meet_interface(walker.direction, hit.normal, hit.shading_normal, ior());
       if (random.next() < ray.reflectance) {
-        send_specular(state, tracer.outside(hit.object, hit.point, hit.normal), ray.reflected);
+        send_specular(state, tracer.leave(hit.object, hit.point, hit.normal, ray.reflected));
         return false;
       }
       walker.direction = ray.refracted;
     }
     if (material.boundary == Boundary::diffuse) send_inward(hit.normal, hit.shading_normal);
+    place_inside(hit.point, hit.normal);
     return true;
   }
 
@@ -141,7 +172,7 @@ struct PathTracer<G>::Passage {
       state.scattered = true;
     }
     state.weight = walker.weight;
-    state.ray = {tracer.outside(hit.object, crossing.point, crossing.normal), walker.direction};
+    state.ray = tracer.leave(hit.object, crossing.point, crossing.normal, walker.direction);
     return Step::go_on;
   }
 
@@ -149,12 +180,12 @@ struct PathTracer<G>::Passage {
     const InterfaceRay ray =
         meet_interface(walker.direction, -crossing.normal, -crossing.shading_normal, 1 / ior());
     if (random.next() < ray.reflectance) {
-      place_inside(crossing.point, crossing.normal);
       walker.direction = ray.reflected;
+      place_inside(crossing.point, crossing.normal);
       return std::nullopt;
     }
     state.weight = walker.weight;
-    send_specular(state, tracer.outside(hit.object, crossing.point, crossing.normal), ray.refracted);
+    send_specular(state, tracer.leave(hit.object, crossing.point, crossing.normal, ray.refracted));
     return Step::go_on;
   }
 
@@ -166,7 +197,9 @@ struct PathTracer<G>::Passage {
     const RefractedLobe lobe(make_lobe(crossing.normal, crossing.shading_normal), ior());
     State vertex;
     vertex.weight = walker.weight;
-    vertex.vertex = tracer.outside(hit.object, crossing.point, crossing.normal);
+    const Ray origin = tracer.leave(hit.object, crossing.point, crossing.normal, {});
+    vertex.vertex = origin.origin;
+    vertex.departure = origin.departure;
     vertex.light_choice = tracer.every_light();
     for (std::size_t light = 0; light < tracer.sampled_lights(); ++light)
       tracer.sample_direct(
@@ -174,11 +207,11 @@ struct PathTracer<G>::Passage {
     const Vec2 u = next_pair();
     const auto direction = lobe.sample(u, random.next());
     if (!direction) {
-      place_inside(crossing.point, crossing.normal);
       send_inward(crossing.normal, crossing.shading_normal);
+      place_inside(crossing.point, crossing.normal);
       return std::nullopt;
     }
-    vertex.ray = {vertex.vertex, *direction};
+    vertex.ray = {vertex.vertex, *direction, vertex.departure};
     vertex.pdf = lobe.eval(*direction);
     vertex.scattered = true;
     state = vertex;

@@ -27,6 +27,7 @@ concept SceneGeometry = requires(const G& geometry, const Ray& ray, std::size_t 
   { geometry.offset(object, point) } -> std::convertible_to<Real>;
   { geometry.transmittance(ray, distance) } -> std::same_as<Rgb>;
   { geometry.traces_rays(object) } -> std::same_as<bool>;
+  { geometry.holds_light(object) } -> std::same_as<bool>;
 };
 
 /// What happened on the way, for statistics.
@@ -73,6 +74,7 @@ class PathTracer {
     PathWeight weight;
     bool scattered = false;  // false: this is still what the camera sees directly
     DVec3 vertex{0};
+    Departure departure;  // what a shadow ray leaves there
     Real pdf = 0;
     Real light_choice = 1;
   };
@@ -88,6 +90,8 @@ class PathTracer {
                              S& sink) noexcept;
   template <Sink S>
   [[nodiscard]] bool collect_lights(const State& state, double distance, S& sink) const noexcept;
+  template <Sink S>
+  void collect_light(const State& state, std::size_t light, const LightHit& hit, S& sink) const noexcept;
   template <Sink S>
   void collect_environment(const State& state, S& sink) const noexcept;
   template <Sink S, class Density>
@@ -107,15 +111,19 @@ class PathTracer {
     return options_.stop && options_.stop->load(std::memory_order_relaxed);
   }
   // A direction that no light was sampled for: whatever light the ray finds counts in full.
-  static void send_specular(State& state, const DVec3& origin, const Vec3& direction) noexcept {
-    state.ray = {origin, direction};
-    state.vertex = origin;
+  static void send_specular(State& state, const Ray& ray) noexcept {
+    state.ray = ray;
+    state.vertex = ray.origin;
     state.pdf = 1;
     state.light_choice = 0;
     state.scattered = true;
   }
-  [[nodiscard]] DVec3 outside(std::size_t object, const Vec3& point, const Vec3& normal) const noexcept {
-    return geometry_.center(object) + DVec3(point + geometry_.offset(object, point) * normal);
+  // The ray that leaves an object at a point, on the side of `normal`.
+  [[nodiscard]] Ray leave(std::size_t object, const Vec3& point, const Vec3& normal,
+                          const Vec3& direction) const noexcept {
+    return {geometry_.center(object) + DVec3(point),
+            direction,
+            {object, geometry_.offset(object, point) * normal}};
   }
 
   const Scene& scene_;

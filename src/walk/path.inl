@@ -48,7 +48,9 @@ auto PathTracer<G>::reflect(const SurfaceHit& hit, const LambertLobe& lobe, Stat
                             S& sink) noexcept -> Step {
   state.weight.vertex();
   if (!state.weight.survives_roulette(random, kRouletteThreshold)) return Step::done;
-  state.vertex = outside(hit.object, hit.point, lobe.normal);
+  const Ray origin = leave(hit.object, hit.point, lobe.normal, {});
+  state.vertex = origin.origin;
+  state.departure = origin.departure;
   state.light_choice = every_light();
   for (std::size_t light = 0; light < sampled_lights(); ++light) {
     const Real u1 = random.next();
@@ -58,7 +60,7 @@ auto PathTracer<G>::reflect(const SurfaceHit& hit, const LambertLobe& lobe, Stat
   }
   const Real u1 = random.next();
   const Real u2 = random.next();
-  state.ray = {state.vertex, lobe.sample({u1, u2})};
+  state.ray = {state.vertex, lobe.sample({u1, u2}), state.departure};
   state.pdf = lobe.eval(state.ray.direction);
   state.scattered = true;
   return Step::go_on;
@@ -78,7 +80,6 @@ bool PathTracer<G>::collect_lights(const State& state, double distance, S& sink)
     if (!state.scattered && !light.visible) continue;
     const auto hit = hit_light(light, from_vertex);
     if (!hit || hit->distance < behind || hit->distance - behind >= distance) continue;
-    const PathWeight& weight = state.weight;
     if (!state.scattered) {
       if (hit->distance - behind >= seen.distance) continue;
       seen = *hit;
@@ -86,15 +87,24 @@ bool PathTracer<G>::collect_lights(const State& state, double distance, S& sink)
       nearest = i;
       continue;
     }
-    const Rgb passed = weight.ratio * weight.since;
-    const Real density = average(passed) * state.pdf + average(weight.ratio) * hit->pdf * state.light_choice;
-    const Rgb radiance = weight.throughput * passed * (state.pdf / density) * hit->radiance;
-    sink.add(detail::make_contribution(weight, radiance, 1 + static_cast<int>(i)));
+    collect_light(state, i, *hit, sink);
   }
   if (nearest == scene_.lights.size()) return false;
   const Rgb radiance = state.weight.throughput * state.weight.free_path_weight() * seen.radiance;
   sink.add(detail::make_contribution(state.weight, radiance, 1 + static_cast<int>(nearest)));
   return true;
+}
+
+// A light that the path's own ray has found, weighed against the vertex having sampled it.
+template <SceneGeometry G>
+template <Sink S>
+void PathTracer<G>::collect_light(const State& state, std::size_t light, const LightHit& hit,
+                                  S& sink) const noexcept {
+  const PathWeight& weight = state.weight;
+  const Rgb passed = weight.ratio * weight.since;
+  const Real density = average(passed) * state.pdf + average(weight.ratio) * hit.pdf * state.light_choice;
+  const Rgb radiance = weight.throughput * passed * (state.pdf / density) * hit.radiance;
+  sink.add(detail::make_contribution(weight, radiance, 1 + static_cast<int>(light)));
 }
 
 template <SceneGeometry G>
@@ -117,7 +127,8 @@ void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const 
   const Real pdf = density(sample->direction);
   if (!(pdf > 0)) return;
   ++counters_.rays;
-  const Rgb through = geometry_.transmittance({vertex.vertex, sample->direction}, sample->distance);
+  const Rgb through =
+      geometry_.transmittance({vertex.vertex, sample->direction, vertex.departure}, sample->distance);
   if (detail::is_black(through)) return;
   const PathWeight& weight = vertex.weight;
   const Rgb passed = weight.ratio * through;

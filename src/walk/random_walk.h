@@ -109,7 +109,10 @@ template <World W, WalkEvents E>
     if (++walker.steps % kStopInterval == 0 && events.stop()) return {WalkEnd::interrupted, {}};
     const Real distance = sample_free_path(sigma, random.next());
     const Crossing crossing = world.first_crossing(walker.position, walker.direction, distance);
-    if (crossing.kind == CrossingKind::leaked) return {WalkEnd::leaked, crossing};
+    if (crossing.kind == CrossingKind::leaked) {
+      walker.weight.pass(medium, crossing.distance);
+      return {WalkEnd::leaked, crossing};
+    }
     events.segment(walker, crossing.distance);
     walker.position = crossing.point;
     if (crossing.kind == CrossingKind::exit) {
