@@ -11,6 +11,7 @@
 
 #include "math/types.h"
 #include "medium/medium.h"
+#include "medium/surface.h"
 #include "scene/mesh.h"
 
 namespace meander {
@@ -74,11 +75,13 @@ struct Light {
   bool visible = false;
 };
 
-enum class Boundary { matched, diffuse };
-
+/// `ior` in [1, 4] is the index inside over the one outside, 1 where matched; `roughness` in [0, 1] is for
+/// the dielectric boundary alone, 0 is smooth.
 struct TranslucentMaterial {
   Medium medium;
   Boundary boundary = Boundary::matched;
+  double ior = 1;
+  double roughness = 0;
 };
 
 /// Opaque Lambertian of the given reflectance, on both sides.
