@@ -11,8 +11,8 @@ namespace meander {
 /// then cheap to evaluate in either direction. A colour is the diffuse albedo of the half-space under uniform
 /// light from outside: the flux that leaves from below over the flux that entered; what the outer side of the
 /// surface reflects is in neither. Both directions increase strictly, map 0 to 0 and 1 to 1 exactly, and are
-/// each other's inverse as far as a double can hold an albedo near 1 (colours within 1e-9 for |g| <= 0.95,
-/// 1e-6 for |g| <= 0.9999). A value type.
+/// each other's inverse as far as a double can hold an albedo near 1 (matched colours within 1e-9 for |g| <=
+/// 0.95, 1e-6 for |g| <= 0.9999). A value type.
 class ColorMap {
  public:
   /// |g| < 1. Matched and diffuse colours are within 1.5e-6 of the exact ones for |g| <= 0.95 and within 5e-6
