@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "io/material_file.h"
+#include "io/medium_file.h"
 
 namespace meander {
 namespace {
@@ -80,10 +80,15 @@ void apply_edit(toml::table& document, const std::string& edit, const std::strin
   toml::table* table =
       named ? &find_named(document, parts[0], parts[1], place) : &descend(document, parts[0], place);
   const double millimetres = document["scene"]["millimetres_per_unit"].value_or(1.0);
-  if (const auto target = parametrisation_of(parts[first_key]); parts[0] == "material" && target)
-    convert_material(*table, *target, file, millimetres);
-  for (std::size_t i = first_key; i + 1 < parts.size(); ++i) table = &descend(*table, parts[i], place);
   toml::table value = parse_value(edit.substr(equals + 1), place.file);
+  if (parts[0] == "material") {
+    const std::string& key = parts[first_key];
+    if (const auto target = parametrisation_of(key)) convert_material(*table, *target, file, millimetres);
+    if (key == "g" && value["v"].is_number())
+      hold_for_g(*table, *value["v"].value<double>(), file, millimetres);
+    if (key == "preset") clear_medium(*table);
+  }
+  for (std::size_t i = first_key; i + 1 < parts.size(); ++i) table = &descend(*table, parts[i], place);
   value.get("v")->visit([&](auto& node) { table->insert_or_assign(parts.back(), std::move(node)); });
 }
 

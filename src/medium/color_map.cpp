@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "medium/half_space.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kLargestG = 0.9999;
 constexpr int kOrdinates = 32;
+constexpr double kLargestIor = 4;
 
 struct ValueAndSlope {
   double value;
@@ -90,28 +92,59 @@ double isotropic_color(double s, double one_minus_s) {
       one_minus_s);
 }
 
+/// What the half-space keeps of the light that entered, on a grid that suits the surface. Backward peaks
+/// need more nodes below a smooth interface, which is steep where they return the light.
+class HalfSpaceAlbedo {
+ public:
+  HalfSpaceAlbedo(double g, const Surface& surface) : half_space_(make_grid(g, surface), g) {
+    for (const double mu : half_space_.grid().mu) {
+      mirror_.push_back(is_mirror(surface) ? internal_reflectance(mu, surface.ior) : 0.0);
+    }
+  }
+
+  [[nodiscard]] double absorbed(double albedo) const {
+    return half_space_.absorbed_fraction(albedo, mirror_);
+  }
+
+ private:
+  static bool is_mirror(const Surface& surface) {
+    return surface.boundary == Boundary::dielectric && surface.ior > 1;
+  }
+  static AngularGrid make_grid(double g, const Surface& surface) {
+    if (!is_mirror(surface)) return make_gauss_grid(kOrdinates);
+    const double critical = std::sqrt((surface.ior - 1) * (surface.ior + 1)) / surface.ior;
+    return make_split_grid(g < -0.7 ? kOrdinates : kOrdinates / 2, critical);
+  }
+
+  HalfSpace half_space_;
+  std::vector<double> mirror_;
+};
+
 }  // namespace
 
 // The similarity variable s makes the curves of all g nearly one. What is interpolated is
 // q = ((1 - A)/A) ((1 - s)/s), smooth, positive and of order 1: A = (1 - s)/((1 - s) + s q) is then right
-// relatively at both ends.
-ColorMap::ColorMap(double g) : g_(g) {
-  assert(std::abs(g) < 1);
-  if (g_ == 0) return;
+// relatively at both ends. A diffuse boundary with an index step multiplies q by 1 / (1 - F).
+ColorMap::ColorMap(double g, Surface surface)
+    : g_(g), tabulated_(g != 0 || (surface.boundary != Boundary::matched && surface.ior > 1)) {
+  assert(std::abs(g) < 1 && surface.ior >= 1 && surface.ior <= kLargestIor);
+  if (!tabulated_) return;
   const double solved_g = std::clamp(g_, -kLargestG, kLargestG);
-  const HalfSpace half_space(make_gauss_grid(kOrdinates), solved_g);
+  const HalfSpaceAlbedo half_space(solved_g, surface);
   for (int k = 0; k < kNodes; ++k) {
     const double angle = std::numbers::pi * (k + 0.5) / kNodes;
     const double s = bent(bend_of(g_), 0.5 * (1 + std::cos(angle)));
-    const double a = half_space.diffuse_reflectance((1 - s) * (1 + s) / (1 - solved_g * s * s));
-    const double q = (1 - a) * (1 - s) / (a * s);
+    const double lost = half_space.absorbed((1 - s) * (1 + s) / (1 - solved_g * s * s));
+    const double q = lost * (1 - s) / ((1 - lost) * s);
     for (int j = 0; j < kNodes; ++j) shape_[j] += (j == 0 ? 1 : 2) * q * std::cos(j * angle) / kNodes;
   }
+  if (surface.boundary != Boundary::diffuse) return;
+  for (double& c : shape_) c /= 1 - diffuse_internal_reflectance(surface.ior);
 }
 
 ColorMap::Similarity ColorMap::similarity_of(double color) const noexcept {
   const double guess = isotropic_similarity(color);
-  if (g_ == 0) return {guess, color * isotropic_complement(color)};
+  if (!tabulated_) return {guess, color * isotropic_complement(color)};
   const double bend = bend_of(g_);
   const double x = find_root(
       [&](double t) -> ValueAndSlope {
@@ -129,7 +162,7 @@ double ColorMap::color(double albedo) const noexcept {
   assert(albedo >= 0 && albedo <= 1);
   const double s = std::sqrt((1 - albedo) / (1 - albedo * g_));
   const double one_minus = albedo * (1 - g_) / ((1 - albedo * g_) * (1 + s));
-  if (g_ == 0) return isotropic_color(s, one_minus);
+  if (!tabulated_) return isotropic_color(s, one_minus);
   return one_minus / (one_minus + s * eval_chebyshev(shape_, unbent(bend_of(g_), s)).value);
 }
 

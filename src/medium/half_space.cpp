@@ -51,6 +51,27 @@ SquareMatrix transport_operator(const SquareMatrix& scattering, const std::vecto
   return result;
 }
 
+/// The highest degree up to `most` for which the rule integrates every Legendre polynomial to 1e-12.
+int exact_degree(const AngularGrid& grid, int most) {
+  std::vector<double> previous(grid.mu.size(), 0.0);
+  std::vector<double> current = grid.weight;
+  double below = 0;  // P_(l-1)(0); the integral of P_l is (P_(l-1)(0) - P_(l+1)(0)) / (2l + 1)
+  double at = 1;
+  for (int l = 0; l <= most; ++l) {
+    const double above = -l * below / (l + 1);
+    const double expected = l == 0 ? 1 : (below - above) / (2 * l + 1);
+    double sum = 0;
+    for (const double x : current) sum += x;
+    if (std::abs(sum - expected) > 1e-12) return l - 1;
+    for (std::size_t i = 0; i < current.size(); ++i) {
+      const double next = ((2 * l + 1) * grid.mu[i] * current[i] - l * previous[i]) / (l + 1);
+      previous[i] = std::exchange(current[i], next);
+    }
+    below = std::exchange(at, above);
+  }
+  return most;
+}
+
 }  // namespace
 
 AngularGrid make_gauss_grid(int n) {
@@ -71,6 +92,22 @@ AngularGrid make_gauss_grid(int n) {
     grid.mu[i] = 0.5 * (1 + x);
     grid.weight[i] = 1 / ((1 - x) * (1 + x) * slope * slope);
   }
+  return grid;
+}
+
+AngularGrid make_split_grid(int n, double split) {
+  assert(split > 0 && split < 1);
+  const AngularGrid gauss = make_gauss_grid(n);
+  AngularGrid grid;
+  for (int i = 0; i < n; ++i) {
+    grid.mu.push_back(split * gauss.mu[i]);
+    grid.weight.push_back(split * gauss.weight[i]);
+  }
+  for (int i = 0; i < n; ++i) {
+    grid.mu.push_back(split + (1 - split) * gauss.mu[i] * gauss.mu[i]);
+    grid.weight.push_back((1 - split) * 2 * gauss.mu[i] * gauss.weight[i]);
+  }
+  grid.degree = exact_degree(grid, 4 * n - 1);
   return grid;
 }
 
@@ -108,6 +145,31 @@ double HalfSpace::diffuse_reflectance(double albedo) const {
     }
   }
   return std::clamp(1 - 2 * sum, 0.0, 1.0);
+}
+
+// The radiance going down just inside, x, is what comes in plus what the mirror sends back of (1 - loss) x.
+// With T the diagonal of 1 - mirror that reads (T + (1 - T) loss) x = T incident, without cancellation.
+double HalfSpace::absorbed_fraction(double albedo, const std::vector<double>& mirror) const {
+  assert(mirror.size() == grid_.mu.size());
+  const SquareMatrix lost = loss(albedo);
+  SquareMatrix system(lost.n);
+  std::vector<double> flux(lost.n);
+  for (int i = 0; i < lost.n; ++i) {
+    for (int j = 0; j < lost.n; ++j) system.at(i, j) = mirror[i] * lost.at(i, j);
+    system.at(i, i) += 1 - mirror[i];
+    flux[i] = std::sqrt(grid_.weight[i] * grid_.mu[i]);
+  }
+  const SquareMatrix inverse = invert(std::move(system));
+  double entered = 0;
+  double absorbed = 0;
+  for (int i = 0; i < lost.n; ++i) {
+    const double incident = (1 - mirror[i]) * flux[i];
+    entered += flux[i] * incident;
+    double down = 0;
+    for (int j = 0; j < lost.n; ++j) down += inverse.at(i, j) * (1 - mirror[j]) * flux[j];
+    for (int j = 0; j < lost.n; ++j) absorbed += flux[j] * lost.at(j, i) * down;
+  }
+  return absorbed / entered;
 }
 
 SquareMatrix HalfSpace::reflection(double albedo) const {

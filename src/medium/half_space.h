@@ -19,6 +19,11 @@ struct AngularGrid {
 /// Gauss-Legendre rule of n >= 2 nodes on (0, 1), ascending, degree 2n - 1.
 [[nodiscard]] AngularGrid make_gauss_grid(int n);
 
+/// n >= 2 nodes on (0, split) and n on (split, 1), ascending; 0 < split < 1. The upper panel is Gaussian in
+/// sqrt(mu - split), which smooths what starts as a square root at the split, as Fresnel transmission does at
+/// the critical angle. The degree is the highest below 4n up to which the rule is exact to 1e-12.
+[[nodiscard]] AngularGrid make_split_grid(int n, double split);
+
 /// The half-space of one g (|g| < 1) on one grid, for any albedo. The azimuthal mean alone is solved, which
 /// is all that fluxes need. Moments above the grid's degree are lumped: a forward peak for g > 0 (delta-M,
 /// Wiscombe 1977), a backward one for g < 0.
@@ -29,6 +34,11 @@ class HalfSpace {
   /// Reflected flux over incident flux under uniform light, in [0, 1]. albedo in [0, 1 - 1e-12]; larger ones
   /// count as that.
   [[nodiscard]] double diffuse_reflectance(double albedo) const;
+
+  /// The part that is absorbed of the light that enters, in (0, 1], below a smooth surface with uniform light
+  /// outside: `mirror` holds, per node of the grid, the fraction in [0, 1] that the surface sends back down
+  /// and keeps from coming in. Full relative precision towards white. Albedo as above.
+  [[nodiscard]] double absorbed_fraction(double albedo, const std::vector<double>& mirror) const;
 
   /// The symmetric reflection function on the grid: light coming down with radiance I_j at mu_j leaves as
   /// 2 sum_j R(i, j) mu_j weight_j I_j at mu_i; 1 everywhere for a white Lambertian surface. Albedo as above.

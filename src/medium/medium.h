@@ -2,6 +2,7 @@
 #pragma once
 
 #include "math/types.h"
+#include "medium/surface.h"
 
 namespace meander {
 
@@ -22,16 +23,17 @@ enum class Inversion { exact, chiang, van_de_hulst };
 /// albedo in [0, 1]; mean_free_path > 0 in scene units, +infinity is vacuum.
 [[nodiscard]] Medium medium_from_albedo(const DVec3& albedo, const DVec3& mean_free_path, double g);
 
-/// color in [0, 1]: the diffuse albedo of a half-space of the material, matched boundary; radius > 0 in scene
-/// units. `exact` (ColorMap) and `van_de_hulst` (Kulla & Conty 2017) take sigma_t = 1 / radius; `chiang`
-/// (Chiang, Kutz, Burley 2016) yields reduced quantities, which are un-reduced by similarity for g. An
+/// color in [0, 1]: the diffuse albedo of a half-space of the material (ColorMap says of what flux); radius >
+/// 0 in scene units. `exact` (ColorMap of g and the surface) and `van_de_hulst` (Kulla & Conty 2017) take
+/// sigma_t = 1 / radius; `chiang` (Chiang, Kutz, Burley 2016) yields reduced quantities, which are un-reduced
+/// by similarity for g. These two hold for a matched boundary and are the same whatever the surface. An
 /// infinite radius is vacuum.
-[[nodiscard]] Medium medium_from_color(const DVec3& color, const DVec3& radius, double g,
-                                       Inversion inversion);
+[[nodiscard]] Medium medium_from_color(const DVec3& color, const DVec3& radius, double g, Inversion inversion,
+                                       Surface surface = {});
 
-/// The colour (diffuse albedo of the matched half-space under uniform light) that a medium of this albedo and
-/// g delivers: monotone in albedo, 0 at 0 and 1 at 1. Accurate within 1e-5 (ColorMap, which to keep where it
-/// is asked more than once for one g != 0).
-[[nodiscard]] DVec3 color_of(const DVec3& albedo, double g);
+/// The colour (diffuse albedo of the half-space under uniform light, ColorMap) that a medium of this albedo
+/// and g delivers under this surface: monotone in albedo, 0 at 0 and 1 at 1. Accurate as ColorMap, which to
+/// keep where it is asked more than once for one g and surface.
+[[nodiscard]] DVec3 color_of(const DVec3& albedo, double g, Surface surface = {});
 
 }  // namespace meander

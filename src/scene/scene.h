@@ -11,6 +11,7 @@
 
 #include "math/types.h"
 #include "medium/medium.h"
+#include "medium/surface.h"
 #include "scene/mesh.h"
 
 namespace meander {
@@ -74,15 +75,13 @@ struct Light {
   bool visible = false;
 };
 
-/// matched: no interface. diffuse: Lambertian on both sides, under a smooth interface when ior > 1.
-/// dielectric: an interface that refracts and reflects.
-enum class Boundary { matched, diffuse, dielectric };
-
+/// `ior` in [1, 4] is the index inside over the one outside, 1 where matched; `roughness` in [0, 1] is for
+/// the dielectric boundary alone, 0 is smooth.
 struct TranslucentMaterial {
   Medium medium;
   Boundary boundary = Boundary::matched;
-  double ior = 1;        // index inside over outside
-  double roughness = 0;  // of a dielectric, in [0, 1]; 0 is smooth
+  double ior = 1;
+  double roughness = 0;
 };
 
 /// Opaque Lambertian of the given reflectance, on both sides.
