@@ -1,6 +1,7 @@
 // One sample of a pixel: from the camera through media and off surfaces until the light is found or the
 // weight is gone. Every light is sampled where the path scatters; rays that hit a light by themselves share
-// it by the balance heuristic. A constant environment is collected by escaping rays alone.
+// it by the balance heuristic. An environment image is one more light; a constant environment is collected by
+// escaping rays alone.
 #pragma once
 
 #include <atomic>
@@ -97,6 +98,10 @@ class PathTracer {
 
   [[nodiscard]] bool stop() const noexcept {
     return options_.stop && options_.stop->load(std::memory_order_relaxed);
+  }
+  // The probability with which a collision in a matched body samples any one light.
+  [[nodiscard]] Real walk_light_choice() const noexcept {
+    return 1 / static_cast<Real>(std::max<std::size_t>(count_sampled_lights(scene_), 1));
   }
   [[nodiscard]] DVec3 outside(std::size_t object, const Vec3& point, const Vec3& normal) const noexcept {
     return geometry_.center(object) + DVec3(point + geometry_.offset(object, point) * normal);

@@ -11,6 +11,13 @@ namespace detail {
   return {group, weight.order, unweighted, weight.albedo, weight.length};
 }
 
+/// The weight of light that a ray has found, without throughput: the balance heuristic, over both ways and
+/// all channels, between a ray whose direction had the density `pdf` and sampling the light with `sampled`.
+[[nodiscard]] inline Rgb found_weight(const PathWeight& weight, Real pdf, Real sampled) noexcept {
+  const Rgb passed = weight.ratio * weight.since;
+  return passed * (pdf / (average(passed) * pdf + average(weight.ratio) * sampled));
+}
+
 [[nodiscard]] inline bool is_black(const Rgb& c) noexcept { return c.x == 0 && c.y == 0 && c.z == 0; }
 
 }  // namespace detail
@@ -32,7 +39,7 @@ struct PathTracer<G>::WalkObserver {
 
   void scattered(const Walker& walker) noexcept {
     if (!lit) return;
-    const std::size_t count = tracer.scene_.lights.size();
+    const std::size_t count = count_sampled_lights(tracer.scene_);
     const std::size_t light =
         std::min(static_cast<std::size_t>(random.next() * static_cast<Real>(count)), count - 1);
     const Real u1 = random.next();
@@ -40,7 +47,7 @@ struct PathTracer<G>::WalkObserver {
     State vertex;
     vertex.weight = walker.weight;
     vertex.vertex = tracer.geometry_.center(object) + DVec3(walker.position);
-    vertex.light_choice = 1 / static_cast<Real>(count);
+    vertex.light_choice = tracer.walk_light_choice();
     const auto phase = [&](const Vec3& d) { return eval_henyey_greenstein(g, walker.direction, d); };
     tracer.sample_direct(light, vertex, phase, {u1, u2}, sink);
   }
@@ -93,7 +100,7 @@ auto PathTracer<G>::reflect(const SurfaceHit& hit, const LambertLobe& lobe, Stat
   if (!state.weight.survives_roulette(random, kRouletteThreshold)) return Step::done;
   state.vertex = outside(hit.object, hit.point, lobe.normal);
   state.light_choice = 1;
-  for (std::size_t light = 0; light < scene_.lights.size(); ++light) {
+  for (std::size_t light = 0; light < count_sampled_lights(scene_); ++light) {
     const Real u1 = random.next();
     const Real u2 = random.next();
     sample_direct(
@@ -127,7 +134,7 @@ auto PathTracer<G>::cross_body(const SurfaceHit& hit, const TranslucentMaterial&
     walker.position = Vec3(state.ray.origin - geometry_.center(hit.object));
   }
   WalkObserver<S> observer{
-      *this, sink, random, hit.object, material.medium.g, matched && !scene_.lights.empty()};
+      *this, sink, random, hit.object, material.medium.g, matched && count_sampled_lights(scene_) > 0};
   const WalkModel model{material.medium, options_.estimator};
   const WalkResult result = geometry_.with_body(
       hit.object, [&](const auto& world) { return random_walk(world, model, walker, random, observer); });
@@ -140,7 +147,12 @@ auto PathTracer<G>::cross_body(const SurfaceHit& hit, const TranslucentMaterial&
   state.weight = walker.weight;
   if (result.end == WalkEnd::leaked) {
     ++counters_.leaked_walks;
-    state.scattered |= !matched || !unscattered;
+    state.ray.direction = walker.direction;
+    if (!matched || !unscattered) {
+      state.pdf = matched ? pdf_last_direction(walker, material.medium.g) : Real(1);
+      state.light_choice = matched ? walk_light_choice() : Real(0);
+      state.scattered = true;
+    }
     collect_environment(state, sink);
     return Step::done;
   }
@@ -150,7 +162,7 @@ auto PathTracer<G>::cross_body(const SurfaceHit& hit, const TranslucentMaterial&
       state.vertex = geometry_.center(hit.object) + DVec3(result.crossing.point) -
                      double{result.crossing.distance} * DVec3(walker.direction);
       state.pdf = pdf_last_direction(walker, material.medium.g);
-      state.light_choice = 1 / static_cast<Real>(std::max<std::size_t>(scene_.lights.size(), 1));
+      state.light_choice = walk_light_choice();
       state.scattered = true;
     }
     state.ray = {exit, walker.direction};
@@ -184,9 +196,8 @@ bool PathTracer<G>::collect_lights(const State& state, double distance, S& sink)
       nearest = i;
       continue;
     }
-    const Rgb passed = weight.ratio * weight.since;
-    const Real density = average(passed) * state.pdf + average(weight.ratio) * hit->pdf * state.light_choice;
-    const Rgb radiance = weight.throughput * passed * (state.pdf / density) * hit->radiance;
+    const Rgb found = detail::found_weight(weight, state.pdf, hit->pdf * state.light_choice);
+    const Rgb radiance = weight.throughput * found * hit->radiance;
     sink.add(detail::make_contribution(weight, radiance, 1 + static_cast<int>(i)));
   }
   if (nearest == scene_.lights.size()) return false;
@@ -198,10 +209,18 @@ bool PathTracer<G>::collect_lights(const State& state, double distance, S& sink)
 template <SceneGeometry G>
 template <Sink S>
 void PathTracer<G>::collect_environment(const State& state, S& sink) const noexcept {
-  if (!state.scattered && !scene_.environment.visible) return;
-  const Rgb radiance =
-      state.weight.throughput * state.weight.free_path_weight() * scene_.environment.radiance;
-  sink.add(detail::make_contribution(state.weight, radiance, 0));
+  const Environment& environment = scene_.environment;
+  if (!state.scattered && !environment.visible) return;
+  const PathWeight& weight = state.weight;
+  const Vec3& direction = state.ray.direction;
+  const Rgb emitted = environment.image ? environment.image->radiance(direction) : environment.radiance;
+  if (detail::is_black(emitted)) return;
+  // Only an image competes with its sampling, and only where the path has scattered.
+  const bool sampled = environment.image && state.scattered;
+  const Rgb found = sampled ? detail::found_weight(weight, state.pdf,
+                                                   environment.image->pdf(direction) * state.light_choice)
+                            : weight.free_path_weight();
+  sink.add(detail::make_contribution(weight, weight.throughput * found * emitted, 0));
 }
 
 // One light seen from a vertex whose lobe or phase function has the density `density(direction)`, which is
@@ -210,7 +229,7 @@ template <SceneGeometry G>
 template <Sink S, class Density>
 void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const Density& density,
                                   const Vec2& u, S& sink) noexcept {
-  const auto sample = sample_light(scene_.lights[light], vertex.vertex, u);
+  const auto sample = sample_light(scene_, light, vertex.vertex, u);
   if (!sample) return;
   const Real pdf = density(sample->direction);
   if (!(pdf > 0)) return;
@@ -222,7 +241,7 @@ void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const 
   Real total = average(weight.ratio) * sample->pdf * vertex.light_choice;
   if (!sample->delta) total += average(passed) * pdf;
   const Rgb radiance = weight.throughput * passed * (pdf / total) * sample->radiance;
-  sink.add(detail::make_contribution(weight, radiance, 1 + static_cast<int>(light)));
+  sink.add(detail::make_contribution(weight, radiance, light_group(scene_, light)));
 }
 
 }  // namespace meander
