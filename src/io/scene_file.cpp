@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "io/environment_file.h"
 #include "io/material_file.h"
 #include "io/mesh_file.h"
 #include "io/scene_edit.h"
@@ -51,10 +52,21 @@ void read_display(TomlTable table, Display& display) {
   table.finish();
 }
 
-void read_environment(TomlTable table, Environment& environment) {
+// `scene_path` is what the image's path is relative to.
+void read_environment(TomlTable table, const std::filesystem::path& scene_path, Environment& environment) {
   environment.radiance = Rgb(table.triple("radiance", kNotNegative, true).value_or(DVec3(0)));
   environment.visible = table.boolean("visible").value_or(true);
+  const auto image = table.text("image");
+  const double rotation = table.number("rotation", kAnyNumber).value_or(0);
+  const double scale = table.number("scale", kNotNegative).value_or(1);
   table.finish();
+  if (image && table.has("radiance"))
+    throw Error(table.place("radiance"), "an environment has radiance or image, not both");
+  for (const char* key : {"rotation", "scale"})
+    if (!image && table.has(key))
+      throw Error(table.place(key), "'" + std::string(key) + "' belongs to an image; [environment] has none");
+  if (image)
+    environment.image = load_environment((scene_path.parent_path() / *image).string(), rotation, scale);
 }
 
 RectangleLight read_rectangle(TomlTable& table) {
@@ -138,7 +150,7 @@ class SceneReader {
     if (auto table = root_.table("camera")) read_camera(*table, scene.camera);
     if (auto table = root_.table("film")) read_film(*table, scene.film);
     if (auto table = root_.table("display")) read_display(*table, scene.display);
-    if (auto table = root_.table("environment")) read_environment(*table, scene.environment);
+    if (auto table = root_.table("environment")) read_environment(*table, path_, scene.environment);
     for (const toml::table* table : list("light"))
       scene.lights.push_back(read_light(TomlTable(*table, path_, "[[light]]"), scene.lights.size()));
     for (const toml::table* table : list("material")) read_named_material(*table, millimetres_per_unit);

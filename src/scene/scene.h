@@ -12,6 +12,7 @@
 #include "math/types.h"
 #include "medium/medium.h"
 #include "medium/surface.h"
+#include "scene/environment_image.h"
 #include "scene/mesh.h"
 
 namespace meander {
@@ -34,9 +35,11 @@ struct Display {
   double exposure = 0;  // stops
 };
 
-/// The same radiance from every direction; `visible` false hides it from camera rays that have not scattered.
+/// The same radiance from every direction, or an image in its place; `visible` false hides it from camera
+/// rays that have not scattered.
 struct Environment {
   Rgb radiance{0};
+  std::shared_ptr<const EnvironmentImage> image;
   bool visible = true;
 };
 

@@ -123,6 +123,15 @@ std::optional<LightSample> sample_light(const Light& light, const DVec3& point, 
   return std::visit([&](const auto& shape) { return sample(shape, point, u); }, light.shape);
 }
 
+std::optional<LightSample> sample_light(const Scene& scene, std::size_t index, const DVec3& point,
+                                        const Vec2& u) noexcept {
+  if (index < scene.lights.size()) return sample_light(scene.lights[index], point, u);
+  const EnvironmentImage::Sample sample = scene.environment.image->sample(u);
+  if (!(sample.pdf > 0)) return std::nullopt;
+  return LightSample{sample.direction, std::numeric_limits<double>::infinity(), sample.radiance, sample.pdf,
+                     false};
+}
+
 std::optional<LightHit> hit_light(const Light& light, const Ray& ray) noexcept {
   return std::visit([&](const auto& shape) { return hit(shape, ray); }, light.shape);
 }

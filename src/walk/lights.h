@@ -14,7 +14,7 @@ namespace meander {
 /// (`delta`) it is what a surface facing it receives per unit of lobe, and pdf is 1.
 struct LightSample {
   Vec3 direction;
-  double distance;  // infinite for a directional light
+  double distance;  // infinite for a directional light and for the environment
   Rgb radiance;
   Real pdf;  // per steradian
   bool delta;
@@ -24,6 +24,20 @@ struct LightSample {
 /// side.
 [[nodiscard]] std::optional<LightSample> sample_light(const Light& light, const DVec3& point,
                                                       const Vec2& u) noexcept;
+
+/// How many lights are sampled: those of the scene's list and, after them, the environment if it is an image.
+[[nodiscard]] inline std::size_t count_sampled_lights(const Scene& scene) noexcept {
+  return scene.lights.size() + (scene.environment.image ? 1 : 0);
+}
+
+/// sample_light for the sampled light of that index.
+[[nodiscard]] std::optional<LightSample> sample_light(const Scene& scene, std::size_t index,
+                                                      const DVec3& point, const Vec2& u) noexcept;
+
+/// The group of contributions that the sampled light of that index belongs to, see Contribution.
+[[nodiscard]] inline int light_group(const Scene& scene, std::size_t index) noexcept {
+  return index < scene.lights.size() ? 1 + static_cast<int>(index) : 0;
+}
 
 /// Where a ray meets a light's emitting side.
 struct LightHit {

@@ -12,6 +12,13 @@ namespace detail {
   return {group, weight.order, unweighted, weight.albedo, weight.length};
 }
 
+/// The weight of light that a ray has found, without throughput: the balance heuristic, over both ways and
+/// all channels, between a ray whose direction had the density `pdf` and sampling the light with `sampled`.
+[[nodiscard]] inline Rgb found_weight(const PathWeight& weight, Real pdf, Real sampled) noexcept {
+  const Rgb passed = weight.ratio * weight.since;
+  return passed * (pdf / (average(passed) * pdf + average(weight.ratio) * sampled));
+}
+
 [[nodiscard]] inline bool is_black(const Rgb& c) noexcept { return c.x == 0 && c.y == 0 && c.z == 0; }
 
 }  // namespace detail
@@ -146,7 +153,14 @@ struct PathTracer<G>::Passage {
   // Lost through a hole: what is beyond counts as the environment.
   [[nodiscard]] Step leak() noexcept {
     ++tracer.counters_.leaked_walks;
-    state.scattered |= material.boundary != Boundary::matched || walker.weight.order != state.weight.order;
+    state.ray.direction = walker.direction;
+    if (material.boundary != Boundary::matched) {
+      send_specular(state, state.ray);
+    } else if (walker.weight.order != state.weight.order) {
+      state.pdf = pdf_last_direction(walker, material.medium.g);
+      state.light_choice = tracer.one_light();
+      state.scattered = true;
+    }
     state.weight = walker.weight;
     tracer.collect_environment(state, sink);
     return Step::done;

@@ -1,6 +1,7 @@
 // One sample of a pixel: from the camera through media and off surfaces until the light is found or the
 // weight is gone. Every light is sampled where the path scatters; rays that hit a light by themselves share
-// it by the balance heuristic. A constant environment is collected by escaping rays alone.
+// it by the balance heuristic. An environment image is one more light; a constant environment is collected by
+// escaping rays alone.
 #pragma once
 
 #include <atomic>
@@ -100,7 +101,7 @@ class PathTracer {
 
   // The lights that a vertex samples.
   [[nodiscard]] std::size_t sampled_lights() const noexcept {
-    return options_.sample_lights ? scene_.lights.size() : 0;
+    return options_.sample_lights ? count_sampled_lights(scene_) : 0;
   }
   // The probability with which a vertex that samples every light, or one of them, samples any one.
   [[nodiscard]] Real every_light() const noexcept { return options_.sample_lights ? Real(1) : Real(0); }

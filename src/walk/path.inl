@@ -101,19 +101,26 @@ template <Sink S>
 void PathTracer<G>::collect_light(const State& state, std::size_t light, const LightHit& hit,
                                   S& sink) const noexcept {
   const PathWeight& weight = state.weight;
-  const Rgb passed = weight.ratio * weight.since;
-  const Real density = average(passed) * state.pdf + average(weight.ratio) * hit.pdf * state.light_choice;
-  const Rgb radiance = weight.throughput * passed * (state.pdf / density) * hit.radiance;
-  sink.add(detail::make_contribution(weight, radiance, 1 + static_cast<int>(light)));
+  const Rgb found = detail::found_weight(weight, state.pdf, hit.pdf * state.light_choice);
+  sink.add(detail::make_contribution(weight, weight.throughput * found * hit.radiance,
+                                     1 + static_cast<int>(light)));
 }
 
 template <SceneGeometry G>
 template <Sink S>
 void PathTracer<G>::collect_environment(const State& state, S& sink) const noexcept {
-  if (!state.scattered && !scene_.environment.visible) return;
-  const Rgb radiance =
-      state.weight.throughput * state.weight.free_path_weight() * scene_.environment.radiance;
-  sink.add(detail::make_contribution(state.weight, radiance, 0));
+  const Environment& environment = scene_.environment;
+  if (!state.scattered && !environment.visible) return;
+  const PathWeight& weight = state.weight;
+  const Vec3& direction = state.ray.direction;
+  const Rgb emitted = environment.image ? environment.image->radiance(direction) : environment.radiance;
+  if (detail::is_black(emitted)) return;
+  // Only an image competes with its sampling, and only where the path has scattered.
+  const bool sampled = environment.image && state.scattered;
+  const Rgb found = sampled ? detail::found_weight(weight, state.pdf,
+                                                   environment.image->pdf(direction) * state.light_choice)
+                            : weight.free_path_weight();
+  sink.add(detail::make_contribution(weight, weight.throughput * found * emitted, 0));
 }
 
 // One light seen from a vertex whose lobe or phase function has the density `density(direction)`, which is
@@ -122,7 +129,7 @@ template <SceneGeometry G>
 template <Sink S, class Density>
 void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const Density& density,
                                   const Vec2& u, S& sink) noexcept {
-  const auto sample = sample_light(scene_.lights[light], vertex.vertex, u);
+  const auto sample = sample_light(scene_, light, vertex.vertex, u);
   if (!sample) return;
   const Real pdf = density(sample->direction);
   if (!(pdf > 0)) return;
@@ -135,7 +142,7 @@ void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const 
   Real total = average(weight.ratio) * sample->pdf * vertex.light_choice;
   if (!sample->delta) total += average(passed) * pdf;
   const Rgb radiance = weight.throughput * passed * (pdf / total) * sample->radiance;
-  sink.add(detail::make_contribution(weight, radiance, 1 + static_cast<int>(light)));
+  sink.add(detail::make_contribution(weight, radiance, light_group(scene_, light)));
 }
 
 }  // namespace meander

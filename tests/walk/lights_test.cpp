@@ -86,3 +86,29 @@ TEST_CASE("a light far from the origin is sampled as at the origin") {
   CHECK(glm::length(near_sample->direction - far_sample->direction) < 1e-6);
   CHECK(far_sample->pdf == doctest::Approx(near_sample->pdf).epsilon(1e-6));
 }
+
+TEST_CASE("an environment image is the light after the last, infinitely far, in the environment's group") {
+  Scene scene;
+  scene.lights = {sphere(1), rectangle()};
+  CHECK(count_sampled_lights(scene) == 2);
+  Image picture(4, 2, 3);
+  picture.at(1, 0)[0] = 2;
+  scene.environment.image = std::make_shared<const EnvironmentImage>(picture);
+  REQUIRE(count_sampled_lights(scene) == 3);
+  CHECK(light_group(scene, 0) == 1);
+  CHECK(light_group(scene, 1) == 2);
+  CHECK(light_group(scene, 2) == 0);
+  const DVec3 point(0.5, 0, 0);
+  const auto sample = sample_light(scene, 2, point, {Real(0.3), Real(0.4)});
+  REQUIRE(sample);
+  CHECK_FALSE(sample->delta);
+  CHECK(std::isinf(sample->distance));
+  CHECK(sample->radiance == Rgb(2, 0, 0));
+  CHECK(sample->pdf == doctest::Approx(2 / glm::pi<double>()));  // one of eight equal parts of the sphere
+  CHECK(sample->pdf == scene.environment.image->pdf(sample->direction));
+  const auto listed = sample_light(scene, 1, point, {Real(0.3), Real(0.4)});
+  REQUIRE(listed);
+  CHECK(listed->direction == sample_light(rectangle(), point, {Real(0.3), Real(0.4)})->direction);
+  scene.environment.image = std::make_shared<const EnvironmentImage>(Image(4, 2, 3));
+  CHECK_FALSE(sample_light(scene, 2, point, {Real(0.3), Real(0.4)}));
+}
