@@ -6,12 +6,12 @@ meander=$1 scene=$2 material=$3 albedo=$4 dir=$5
 name=$(basename "$scene" .toml)
 golden=${scene%.toml}.exr
 mkdir -p "$dir"
-"$meander" render "$scene" -o "$dir/$name.exr" --spp 128 --seed 7 --quiet
+"$meander" render "$scene" -o "$dir/$name.exr" --spp 512 --seed 7 --quiet
 if ! "$meander" compare "$dir/$name.exr" "$golden" --z-test --output "$dir/$name-difference.png"; then
   echo "FAILED: $dir/$name.exr differs from $golden; difference: $dir/$name-difference.png"
   exit 1
 fi
-"$meander" render "$scene" -o "$dir/$name-wrong.exr" --spp 128 --seed 7 --quiet --set "material.$material.albedo=$albedo"
+"$meander" render "$scene" -o "$dir/$name-wrong.exr" --spp 512 --seed 7 --quiet --set "material.$material.albedo=$albedo"
 status=0
 "$meander" compare "$dir/$name-wrong.exr" "$golden" --z-test || status=$?
 if [ $status -ne 1 ]; then
