@@ -1,6 +1,8 @@
 #include "app/command_line.h"
 
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <sstream>
 
@@ -61,6 +63,18 @@ CLI::Validator greater_than(double low) {
 }
 CLI::Validator finite_number() {
   return number_check("a finite number", [](double) { return true; });
+}
+
+CLI::Validator whole_number() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        errno = 0;
+        (void)std::strtoull(text.c_str(), nullptr, 10);
+        if (digits && errno == 0) return {};
+        return "is '" + text + "', but must be a whole number from 0 to 18446744073709551615";
+      },
+      "");
 }
 
 int run_command_line(int argc, char** argv) {

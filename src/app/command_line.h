@@ -25,5 +25,7 @@ void add_compare_command(CLI::App& app, Action& action);
 [[nodiscard]] CLI::Validator at_least(double low);
 [[nodiscard]] CLI::Validator greater_than(double low);
 [[nodiscard]] CLI::Validator finite_number();
+/// Digits alone, below 2^64: the parser would take -1 for a very large seed.
+[[nodiscard]] CLI::Validator whole_number();
 
 }  // namespace meander

@@ -31,7 +31,7 @@ struct MeasureOptions {
   std::optional<double> radius;
   std::optional<double> max_depth;
   std::optional<double> max_path;
-  std::string incidence = "normal";
+  std::string incidence;  // empty: normal, or diffuse for a colour, which is defined so
   std::string estimator = "implicit";
   std::uint64_t walks = 1'000'000;
   std::uint64_t seed = 0;
@@ -74,6 +74,7 @@ void require_in(const std::string& option, double value, double low, double high
 }
 
 Incidence parse_incidence(const std::string& text) {
+  if (text.empty()) return {false, 1};
   if (text == "normal") return {false, 1};
   if (text == "diffuse") return {true, 1};
   const std::string prefix = "cosine=";
@@ -82,6 +83,14 @@ Incidence parse_incidence(const std::string& text) {
       cosine > 0 && cosine <= 1)
     return {false, cosine};
   refuse("--incidence is '" + text + "', but must be normal, diffuse, or cosine=MU with MU in (0, 1]");
+}
+
+Boundary boundary_of(const MeasureOptions& o) {
+  if (o.boundary == "matched" && o.ior != 1)
+    refuse("--ior other than 1 needs --boundary dielectric or diffuse");
+  return o.boundary == "matched"   ? Boundary::matched
+         : o.boundary == "diffuse" ? Boundary::diffuse
+                                   : Boundary::dielectric;
 }
 
 // The albedos asked for, whichever way they were given.
@@ -95,7 +104,8 @@ std::vector<double> albedos_of(const MeasureOptions& o, double g) {
     const Inversion inversion = o.inversion == "chiang"         ? Inversion::chiang
                                 : o.inversion == "van_de_hulst" ? Inversion::van_de_hulst
                                                                 : Inversion::exact;
-    return {double{medium_from_color(DVec3(*o.color), DVec3(1), g, inversion).albedo.x}};
+    return {
+        double{medium_from_color(DVec3(*o.color), DVec3(1), g, inversion, {boundary_of(o), o.ior}).albedo.x}};
   }
   if (o.sigma_a || o.sigma_s) {
     const double sigma_t = o.sigma_a.value_or(0) + o.sigma_s.value_or(0);
@@ -117,7 +127,7 @@ BinOptions bins_of(const MeasureOptions& o, const decltype(MeasureJob::shape)& s
   const bool sphere = std::holds_alternative<MeasuredSphere>(shape);
   if (sphere && (bins.radial > 0 || bins.depth > 0))
     refuse("--radial-bins and --depth-bins are for the slab and the half-space");
-  if (bins.radial > 0 && (o.incidence != "normal"))
+  if (bins.radial > 0 && !o.incidence.empty() && o.incidence != "normal")
     refuse("--radial-bins need a pencil beam: --incidence normal");
   if (o.radius) bins.radius = *o.radius * scale;
   if (const auto* slab = std::get_if<MeasuredSlab>(&shape)) bins.max_depth = slab->tau;
@@ -126,13 +136,8 @@ BinOptions bins_of(const MeasureOptions& o, const decltype(MeasureJob::shape)& s
   return bins;
 }
 
-Boundary boundary_of(const MeasureOptions& o) {
-  if (o.boundary == "matched" && o.ior != 1)
-    refuse("--ior other than 1 needs --boundary dielectric or diffuse");
-  return o.boundary == "matched"   ? Boundary::matched
-         : o.boundary == "diffuse" ? Boundary::diffuse
-                                   : Boundary::dielectric;
-}
+// In single precision a thicker slab would lose the digits of its faces.
+constexpr double kThickest = 1e6;
 
 using Shape = decltype(MeasureJob::shape);
 
@@ -143,7 +148,7 @@ std::vector<Shape> shapes_of(const MeasureOptions& o) {
   std::vector<Shape> shapes;
   if (o.shape == "sphere") {
     for (const double tau : parse_range("--tau-radius", o.tau_radius.empty() ? "1" : o.tau_radius)) {
-      if (!(tau > 0)) refuse("--tau-radius must be greater than 0");
+      if (!(tau > 0 && tau <= 1e5)) refuse("--tau-radius must be greater than 0 and at most 1e5");
       shapes.emplace_back(MeasuredSphere{tau});
     }
     return shapes;
@@ -151,10 +156,12 @@ std::vector<Shape> shapes_of(const MeasureOptions& o) {
   if (o.thickness) {
     if (!o.tau.empty()) refuse("give the slab by --tau or by --thickness, not by both");
     if (!o.sigma_a && !o.sigma_s) refuse("--thickness needs --sigma-a and --sigma-s");
-    return {MeasuredSlab{*o.thickness * (o.sigma_a.value_or(0) + o.sigma_s.value_or(0))}};
+    const double tau = *o.thickness * per_length(o);
+    if (!(tau <= kThickest)) refuse("--thickness times the extinction must be at most 1e6");
+    return {MeasuredSlab{tau}};
   }
   for (const double tau : parse_range("--tau", o.tau.empty() ? "1" : o.tau)) {
-    if (!(tau > 0)) refuse("--tau must be greater than 0");
+    if (!(tau > 0 && tau <= kThickest)) refuse("--tau must be greater than 0 and at most 1e6");
     shapes.emplace_back(MeasuredSlab{tau});
   }
   return shapes;
@@ -165,7 +172,7 @@ std::vector<MeasureJob> jobs_of(const MeasureOptions& o) {
   MeasureJob job;
   job.boundary = boundary_of(o);
   job.ior = o.ior;
-  job.incidence = parse_incidence(o.incidence);
+  job.incidence = parse_incidence(o.incidence.empty() && o.color ? "diffuse" : o.incidence);
   job.estimator = o.estimator == "analog" ? Estimator::analog : Estimator::implicit;
   job.walks = o.walks;
   job.seed = o.seed;
@@ -194,7 +201,7 @@ int run_measure(const MeasureOptions& options) {
   const std::atomic<bool>& stop = watch_interrupts();
   std::vector<MeasuredCase> cases;
   for (const MeasureJob& job : jobs) {
-    cases.push_back({job, measure(job, stop), per_length(options)});
+    cases.push_back({job, measure(job, stop), per_length(options), options.color});
     if (stop) std::cerr << "meander: interrupted after " << cases.back().result.walks << " walks\n";
     if (stop && cases.back().result.walks == 0) cases.pop_back();
     if (stop) break;
@@ -252,12 +259,13 @@ void add_measure_command(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"matched", "dielectric", "diffuse"}));
   verb->add_option("--ior", o->ior, "index inside over outside, 1 to 4 (1)")->check(CLI::Range(1.0, 4.0));
   add_bin_options(*verb, *o);
-  verb->add_option("--incidence", o->incidence, "normal, cosine=MU or diffuse (normal)");
+  verb->add_option("--incidence", o->incidence,
+                   "normal, cosine=MU or diffuse (normal; diffuse with --color)");
   verb->add_option("--estimator", o->estimator, "analog or implicit (implicit)")
       ->check(CLI::IsMember({"analog", "implicit"}));
   verb->add_option("--walks", o->walks, "number of walks (10^6)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 50));
-  verb->add_option("--seed", o->seed, "random seed (0)");
+  verb->add_option("--seed", o->seed, "random seed (0)")->check(whole_number());
   verb->add_option("--threads", o->threads, "threads (all)")->check(CLI::Range(1, 1024));
   verb->add_flag("--json", o->json, "print JSON");
   verb->add_flag("--csv", o->csv, "print CSV: the bins where there are any");

@@ -63,6 +63,17 @@ void add_paths_and_bins(nlohmann::ordered_json& json, const MeasuredCase& m) {
   }
 }
 
+// What leaves from below over what entered: the surface colour that was delivered, and its standard error.
+struct Delivered {
+  double color;
+  double standard_error;
+};
+Delivered delivered_color(const Measurement& r) {
+  const double entered = 1 - r.specular_reflectance.mean;
+  return {(r.reflectance.mean - r.specular_reflectance.mean) / entered,
+          r.reflectance.standard_error() / entered};
+}
+
 }  // namespace
 
 std::string measurement_text(const MeasuredCase& measured) {
@@ -74,6 +85,13 @@ std::string measurement_text(const MeasuredCase& measured) {
     text += line;
   }
   const Measurement& r = measured.result;
+  if (measured.color) {
+    const Delivered delivered = delivered_color(r);
+    std::snprintf(line, sizeof line, "color asked %.6f, delivered %.6f +- %.6f, difference %+.6f\n",
+                  *measured.color, delivered.color, delivered.standard_error,
+                  delivered.color - *measured.color);
+    text += line;
+  }
   std::snprintf(line, sizeof line, "%llu walks, %llu steps, %.2f s\n",
                 static_cast<unsigned long long>(r.walks), static_cast<unsigned long long>(r.steps),
                 r.seconds);
@@ -91,6 +109,13 @@ std::string measurement_json(const std::vector<MeasuredCase>& cases, bool list) 
     }
     for (const Quantity& q : quantities_of(measured))
       one[q.name] = {{"value", q.moments->mean}, {"standard_error", q.moments->standard_error()}};
+    if (measured.color) {
+      const Delivered delivered = delivered_color(measured.result);
+      one["color"] = {{"asked", *measured.color},
+                      {"delivered", delivered.color},
+                      {"standard_error", delivered.standard_error},
+                      {"difference", delivered.color - *measured.color}};
+    }
     add_paths_and_bins(one, measured);
     one["walks"] = measured.result.walks;
     one["steps"] = measured.result.steps;

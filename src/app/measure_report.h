@@ -1,6 +1,7 @@
 // How a measurement is printed: plain lines, JSON, or rows of CSV.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace meander {
 struct MeasuredCase {
   MeasureJob job;
   Measurement result;
-  double per_length = 1;  // mean free paths in the unit of lengths asked for: sigma_t per mm, or 1
+  double per_length = 1;        // mean free paths in the unit of lengths asked for: sigma_t per mm, or 1
+  std::optional<double> color;  // asked for
 };
 
 [[nodiscard]] std::string measurement_text(const MeasuredCase& measured);

@@ -1,5 +1,7 @@
 #include "app/render_options.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -32,6 +34,16 @@ std::optional<Tile> crop_of(const RenderOptions& options, const FilmSize& film) 
                                 " and 0 <= Y0 < Y1 <= " + std::to_string(film.height));
 }
 
+// A film that the machine cannot hold is refused rather than left to the system's mercy.
+void check_memory(const Job& job) {
+  const auto machine =
+      static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  if (film_bytes(job) < machine / 10 * 9) return;
+  throw Error(Fault::input, "the film needs " + std::to_string(film_bytes(job) >> 20) +
+                                " MiB, and this machine has " + std::to_string(machine >> 20) +
+                                ": use --crop, or a smaller --width and --height");
+}
+
 Job make_job(const RenderOptions& options, Scene scene) {
   if (options.width) scene.film.width = *options.width;
   if (options.height) scene.film.height = *options.height;
@@ -57,8 +69,9 @@ void add_render_options(CLI::App& verb, RenderOptions& o) {
   verb.add_option("--time", o.seconds, "seconds to render for")->check(greater_than(0));
   verb.add_option("--error,--noise", o.error, "relative noise to reach, such as 0.01")
       ->check(greater_than(0));
-  verb.add_option("--seed", o.seed, "random seed (0)");
-  verb.add_option("--first-sample", o.first_sample, "number of the first sample (0)");
+  verb.add_option("--seed", o.seed, "random seed (0)")->check(whole_number());
+  verb.add_option("--first-sample", o.first_sample, "number of the first sample (0)")
+      ->check(CLI::Range(0u, 1u << 31));
   verb.add_option("--threads", o.threads, "threads (all that the machine has, and at most those)")
       ->check(CLI::Range(1, 1024));
   verb.add_option("--width", o.width, "film width, pixels")->check(CLI::Range(1, 16384));
@@ -84,6 +97,7 @@ FinishedRun run_render(const RenderOptions& options, std::span<const std::string
     for (const std::string& warning : file.warnings) std::cerr << "meander: warning: " << warning << '\n';
   FinishedRun run;
   run.job = make_job(options, std::move(file.scene));
+  check_memory(run.job);
   const std::atomic<bool>& stop = watch_interrupts();
   const Budget budget = budget_of(options);
   ProgressReport progress(budget, options.quiet);
@@ -102,10 +116,10 @@ void print_summary(const RenderOptions& options, const FinishedRun& run) {
     const std::string json = stats_json(run.job, r);
     write_file(options.stats, std::as_bytes(std::span(json)));
   }
-  if (options.quiet) return;
   if (run.interrupted)
     std::fprintf(stderr, "meander: interrupted; wrote what was complete, %llu samples a pixel\n",
                  static_cast<unsigned long long>(r.spp));
+  if (options.quiet) return;
   std::fprintf(stderr, "%s: %llu spp in %.2f s, noise %.2f %%, %.3g steps/s\n", options.output.c_str(),
                static_cast<unsigned long long>(r.spp), r.seconds, 100 * r.noise,
                static_cast<double>(r.counters.steps) / r.seconds);

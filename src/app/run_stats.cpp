@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace meander {
@@ -54,9 +55,12 @@ std::string stats_json(const Job& job, const Rendering& rendering) {
 ImageAttributes image_attributes(const Job& job, const Rendering& rendering) {
   ImageAttributes attributes;
   attributes.text = {{"meander/scene", job.scene->name}, {"meander/version", version_text()}};
+  // Seeds beyond what an attribute's integer holds travel as text.
+  const bool fits = job.seed <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  if (!fits) attributes.text.emplace_back("meander/seed", std::to_string(job.seed));
   attributes.integers = {{"meander/spp", static_cast<std::int64_t>(rendering.spp)},
-                         {"meander/seed", static_cast<std::int64_t>(job.seed)},
                          {"meander/first_sample", job.first_sample}};
+  if (fits) attributes.integers.emplace_back("meander/seed", static_cast<std::int64_t>(job.seed));
   return attributes;
 }
 

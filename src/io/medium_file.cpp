@@ -11,7 +11,9 @@ constexpr std::array<std::string_view, 3> kTypes{"translucent", "diffuse", "emis
 constexpr std::array<std::string_view, 3> kBoundaries{"matched", "diffuse", "dielectric"};
 constexpr std::array<std::string_view, 3> kInversions{"exact", "chiang", "van_de_hulst"};
 constexpr std::array<std::string_view, 3> kLocks{"look", "sigma_t", "sigma_s_reduced"};
-constexpr Range kMeanCosine{-1, 1, true, true, "greater than -1 and less than 1"};
+// Closer to 1, single precision could not tell the two apart.
+constexpr Range kMeanCosine{-0.9999999, 0.9999999, false, false,
+                            "greater than -1 and less than 1, by 1e-7 at least"};
 constexpr Range kIndex{1, 4, false, false, "in [1, 4]"};
 
 struct Member {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <vector>
 
 #include "io/medium_file.h"
@@ -44,11 +45,14 @@ toml::table parse_value(const std::string& text, const std::string& source) {
 toml::table& find_named(toml::table& document, const std::string& list, const std::string& name,
                         const Place& place) {
   std::vector<std::string_view> names;
+  std::deque<std::string> defaults;
   if (toml::array* elements = document[list].as_array()) {
     for (toml::node& element : *elements) {
       toml::table* table = element.as_table();
       if (!table) continue;
-      const std::string_view known = (*table)["name"].value_or<std::string_view>("");
+      // Without a name it has the one that the reader gives it: light1, object2.
+      defaults.push_back(list + std::to_string(defaults.size() + 1));
+      const std::string_view known = (*table)["name"].value_or<std::string_view>(defaults.back());
       if (known == name) return *table;
       names.push_back(known);
     }

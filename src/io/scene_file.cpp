@@ -18,11 +18,18 @@ namespace {
 constexpr double kLargestSide = 16384;
 constexpr Range kFilmSide{1, kLargestSide, false, false, "a whole number from 1 to 16384"};
 constexpr Range kFieldOfView{0, 180, true, true, "greater than 0 and less than 180 degrees"};
+constexpr Range kSize{1e-12, 1e12, false, false, "in [1e-12, 1e12]"};
 constexpr Range kExposure{-50, 50, false, false, "in [-50, 50] stops"};
 constexpr std::array<std::string_view, 1> kTones{"srgb"};
 constexpr std::array<std::string_view, 2> kUpAxes{"y", "z"};
 constexpr std::array<std::string_view, 4> kLightTypes{"rectangle", "sphere", "point", "directional"};
 constexpr std::array<std::string_view, 4> kShapes{"sphere", "box", "slab", "torus_knot"};
+
+std::string short_number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
 
 void read_camera(TomlTable table, Camera& camera) {
   camera.look_from = table.triple("look_from", kAnyNumber, false).value_or(camera.look_from);
@@ -124,6 +131,10 @@ Transform read_transform(TomlTable& object) {
   transform.translate = table->triple("translate", kAnyNumber, false).value_or(transform.translate);
   transform.rotate = table->triple("rotate", kAnyNumber, false).value_or(transform.rotate);
   transform.scale = table->triple("scale", kPositive, true).value_or(transform.scale);
+  for (int axis = 0; axis < 3; ++axis)
+    if (!kSize.contains(transform.scale[axis]))
+      throw Error(table->place("scale"), "'scale' is " + short_number(transform.scale[axis]) +
+                                             ", but must be " + std::string(kSize.text));
   table->finish();
   return transform;
 }
@@ -198,11 +209,29 @@ class SceneReader {
     const bool z_up = table.choice("up_axis", kUpAxes).value_or(0) == 1;
     const std::string name = *table.text("mesh");
     const std::filesystem::path path = std::filesystem::path(path_).parent_path() / name;
-    MeshFile file = mesh_ ? std::move(*mesh_) : load_mesh(path.string(), z_up);
+    MeshFile file = mesh_ ? std::move(*mesh_) : load_named_mesh(path.string(), z_up, table.place("mesh"));
     mesh_.reset();
+    const Bounds bounds = bounds_of(file.mesh);
+    const double size = glm::length(bounds.high - bounds.low);
+    if (!kSize.contains(size))
+      throw Error(table.place("mesh"), path.string() + " is " + short_number(size) + " across, but must be " +
+                                           std::string(kSize.text));
+    if (translucent && file.report.open_edges == 0 &&
+        !(signed_volume(file.mesh) > 1e-15 * size * size * size))
+      throw Error(table.place("mesh"), path.string() + " encloses no volume, and cannot hold a medium");
     if (translucent && file.report.open_edges > 0)
       file_.warnings.push_back(open_edges_warning(path.string(), file.report.open_edges));
     return std::make_shared<const Mesh>(std::move(file.mesh));
+  }
+
+  // An error in the mesh file is one in the scene that names it.
+  static MeshFile load_named_mesh(const std::string& path, bool z_up, const Place& place) {
+    try {
+      return load_mesh(path, z_up);
+    } catch (const Error& error) {
+      if (error.exit_code() != static_cast<int>(Fault::input)) throw;
+      throw Error(place, error.what());
+    }
   }
 
   void read_object(TomlTable table) {
@@ -235,6 +264,8 @@ std::string read_text(const std::string& path) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code))
     throw Error(Place{path, 0, 0}, "is a folder, not a scene file");
+  if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
+    throw Error(Place{path, 0, 0}, "is not a regular file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Error(Place{path, 0, 0}, "cannot open: No such file or directory");
   std::ostringstream text;

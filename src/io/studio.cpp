@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 namespace meander {
@@ -25,6 +26,12 @@ std::string number(double value) {
 std::string quoted(const std::string& name) {
   std::string text = "\"";
   for (const char c : name) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      char escaped[8];
+      std::snprintf(escaped, sizeof escaped, "\\u%04X", static_cast<unsigned>(c));
+      text += escaped;
+      continue;
+    }
     if (c == '"' || c == '\\') text += '\\';
     text += c;
   }

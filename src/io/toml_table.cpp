@@ -1,6 +1,7 @@
 #include "io/toml_table.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace meander {
@@ -28,7 +29,11 @@ std::string number_text(double value) {
   std::ostringstream stream;
   stream.precision(9);
   stream << value;
-  return stream.str();
+  if (std::isnan(value) || std::strtod(stream.str().c_str(), nullptr) == value) return stream.str();
+  std::ostringstream exact;
+  exact.precision(17);
+  exact << value;
+  return exact.str();
 }
 
 }  // namespace
@@ -57,10 +62,11 @@ void TomlTable::wrong_type(const toml::node& node, std::string_view key, std::st
 double TomlTable::checked(const toml::node& node, std::string_view key, const Range& range) const {
   if (!node.is_number()) wrong_type(node, key, "a number");
   const double value = *node.value<double>();
-  if (!range.contains(value))
-    throw Error(place_of(node, file_), "'" + std::string(key) + "' is " + number_text(value) +
-                                           ", but must be " + std::string(range.text));
-  return value;
+  if (range.contains(value)) return value;
+  std::string wanted(range.text);
+  if (std::abs(value) > kLargest && range.high == kLargest) wanted += " and at most 1e30 in size";
+  throw Error(place_of(node, file_),
+              "'" + std::string(key) + "' is " + number_text(value) + ", but must be " + wanted);
 }
 
 std::optional<double> TomlTable::number(std::string_view key, const Range& range) {

@@ -80,7 +80,13 @@ Tile area_of(const Job& job) {
   return job.crop.value_or(Tile{0, 0, job.scene->film.width, job.scene->film.height});
 }
 
-std::vector<std::uint8_t> object_mask(const Job& job) {
+std::uint64_t film_bytes(const Job& job) {
+  const Tile area = area_of(job);
+  return 2 * sizeof(Pixel) * static_cast<std::uint64_t>(area.x1 - area.x0) *
+         static_cast<std::uint64_t>(area.y1 - area.y0);
+}
+
+std::vector<std::uint8_t> object_mask(const Job& job, const std::atomic<bool>& stop) {
   const Scene& scene = *job.scene;
   const CameraRays camera = make_camera_rays(scene.camera, scene.film.width, scene.film.height);
   const Tile area = area_of(job);
@@ -95,12 +101,12 @@ std::vector<std::uint8_t> object_mask(const Job& job) {
   const std::size_t stride = width + 1;
   std::vector<std::uint8_t> corners(stride * (height + 1));
   parallel_for(job.threads, height + 1, [&](std::size_t y) {
-    for (std::size_t x = 0; x <= width; ++x)
+    for (std::size_t x = 0; x <= width && !stop; ++x)
       corners[y * stride + x] = shows_object(static_cast<double>(x), static_cast<double>(y));
   });
   std::vector<std::uint8_t> mask(width * height);
   parallel_for(job.threads, height, [&](std::size_t y) {
-    for (std::size_t x = 0; x < width; ++x) {
+    for (std::size_t x = 0; x < width && !stop; ++x) {
       const std::uint8_t* corner = &corners[y * stride + x];
       const bool whole = corner[0] && corner[1] && corner[stride] && corner[stride + 1];
       mask[y * width + x] = whole && shows_object(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
@@ -117,7 +123,7 @@ Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& 
   const int height = area.y1 - area.y0;
   const CameraRays camera = make_camera_rays(scene.camera, scene.film.width, scene.film.height);
   const std::vector<Tile> tiles = make_tiles(width, height);
-  const std::vector<std::uint8_t> mask = object_mask(job);
+  const std::vector<std::uint8_t> mask = object_mask(job, stop);
   Rendering done;
   done.film = Film(width, height);
   Film next(width, height);
@@ -150,17 +156,21 @@ std::string describe_model(const Scene& scene) {
   bool anisotropic = false;
   bool matched = false;
   bool diffuse = false;
+  bool dielectric = false;
   for (const Object& object : scene.objects) {
     const auto* translucent = std::get_if<TranslucentMaterial>(&scene.materials[object.material].kind);
     if (!translucent) continue;
     anisotropic |= translucent->medium.g != 0;
-    (translucent->boundary == Boundary::matched ? matched : diffuse) = true;
+    matched |= translucent->boundary == Boundary::matched;
+    diffuse |= translucent->boundary == Boundary::diffuse;
+    dielectric |= translucent->boundary == Boundary::dielectric;
   }
-  if (!matched && !diffuse) return "no translucent object";
+  if (!matched && !diffuse && !dielectric) return "no translucent object";
   std::string text = is_chromatic(scene) ? "chromatic" : "grey";
   text += anisotropic ? " anisotropic" : " isotropic";
   if (matched) text += " matched";
   if (diffuse) text += " diffuse";
+  if (dielectric) text += " dielectric";
   return "scalar " + text;
 }
 

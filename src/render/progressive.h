@@ -40,8 +40,11 @@ struct Rendering {
 [[nodiscard]] Tile area_of(const Job& job);
 
 /// One byte a pixel of the job's area: 1 where its whole square shows a translucent object, judged at its
-/// corners and its middle.
-[[nodiscard]] std::vector<std::uint8_t> object_mask(const Job& job);
+/// corners and its middle. Once `stop` is true the rest is left 0.
+[[nodiscard]] std::vector<std::uint8_t> object_mask(const Job& job, const std::atomic<bool>& stop);
+
+/// Bytes that the films of a job take.
+[[nodiscard]] std::uint64_t film_bytes(const Job& job);
 
 /// Renders until the budget is met or `stop` becomes true. `published` is called after every pass, on the
 /// calling thread. A pass that was interrupted is discarded whole: keeping the walks that had ended would

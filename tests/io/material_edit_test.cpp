@@ -122,7 +122,7 @@ TEST_CASE("a g that is none, or belongs to nothing, is answered as before") {
   CHECK(error_of(text, {"material.wax.g=thick"}) ==
         "--set material.wax.g=thick: 'g' must be a number, not the text 'thick'");
   CHECK(error_of(text, {"material.wax.g=-1"}) ==
-        "--set material.wax.g=-1: 'g' is -1, but must be greater than -1 and less than 1");
+        "--set material.wax.g=-1: 'g' is -1, but must be greater than -1 and less than 1, by 1e-7 at least");
   CHECK(error_of(kWax + "type = \"diffuse\"\n", {"material.wax.g=0.5"}).find("unknown key 'g'") !=
         std::string::npos);
 }

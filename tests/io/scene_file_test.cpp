@@ -87,11 +87,11 @@ TEST_CASE("bad input is one line with the place, the wrong value and the right o
   CHECK(error_of(kWax + "albedo = nan\nmean_free_path = 1\n") ==
         ":3:10: 'albedo' is nan, but must be in [0, 1]");
   CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = inf\n") ==
-        ":4:18: 'mean_free_path' is inf, but must be greater than 0");
+        ":4:18: 'mean_free_path' is inf, but must be greater than 0 and at most 1e30 in size");
   CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = -1\n") ==
         ":4:18: 'mean_free_path' is -1, but must be greater than 0");
   CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = 1\ng = 1\n") ==
-        ":5:5: 'g' is 1, but must be greater than -1 and less than 1");
+        ":5:5: 'g' is 1, but must be greater than -1 and less than 1, by 1e-7 at least");
   CHECK(error_of(kWax + "albedo = 0.5\n") == ":1:1: [[material]] needs 'mean_free_path'");
   CHECK(error_of(kWax + "sigma_s = 1\nalbedo = 0.5\n")
             .starts_with(":3:11: 'sigma_s' and 'albedo' describe the medium twice"));
@@ -164,7 +164,7 @@ TEST_CASE("setting one member of a parametrisation converts the material, the ot
 TEST_CASE("a bad edit is named as it was typed") {
   const std::string text = kWax + "albedo = 0.5\nmean_free_path = 1\n";
   CHECK(error_of(text, {"material.wax.g=2"}) ==
-        "--set material.wax.g=2: 'g' is 2, but must be greater than -1 and less than 1");
+        "--set material.wax.g=2: 'g' is 2, but must be greater than -1 and less than 1, by 1e-7 at least");
   CHECK(error_of(text, {"material.jade.g=0"}) ==
         "--set material.jade.g=0: there is no material named 'jade'; known: wax");
   CHECK(error_of(text, {"light.key.radiance=0"}) ==

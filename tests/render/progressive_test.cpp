@@ -111,7 +111,8 @@ TEST_CASE("the object mask holds the pixels that lie wholly on a translucent obj
   scene.film = {40, 40};
   scene.materials.push_back(translucent("m", {Rgb(1), Rgb(1), 0}, Boundary::matched));
   scene.objects.push_back({"ball", SphereShape{}, 0, {}});
-  const auto mask = object_mask(make_job(std::move(scene), 2));
+  const std::atomic<bool> stop{false};
+  const auto mask = object_mask(make_job(std::move(scene), 2), stop);
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) {
       // The corner of the pixel farthest from the middle, in units of the radius.
