@@ -19,6 +19,16 @@ namespace detail {
   return passed * (pdf / (average(passed) * pdf + average(weight.ratio) * sampled));
 }
 
+/// What sample_direct asks of a lobe whose density is known in closed form.
+template <class Density>
+struct Weighing {
+  Density density;
+  [[nodiscard]] Real operator()(const Vec3& direction, Real competing, bool delta) const noexcept {
+    const Real value = density(direction);
+    return value / (delta ? competing : competing + value);
+  }
+};
+
 [[nodiscard]] inline bool is_black(const Rgb& c) noexcept { return c.x == 0 && c.y == 0 && c.z == 0; }
 
 }  // namespace detail
@@ -70,7 +80,7 @@ struct PathTracer<G>::Passage {
     const auto phase = [&](const Vec3& d) {
       return eval_henyey_greenstein(material.medium.g, walker.direction, d);
     };
-    tracer.sample_direct(light, vertex, phase, u, sink);
+    tracer.sample_direct(light, vertex, detail::Weighing{phase}, u, sink);
   }
 
  private:
@@ -121,7 +131,9 @@ struct PathTracer<G>::Passage {
       walker.position = Vec3(state.ray.origin - tracer.geometry_.center(hit.object));
       return true;
     }
-    if (material.boundary != Boundary::matched && material.ior != 1) {
+    if (is_rough()) {
+      if (meet_rough(hit.point, hit.normal, hit.shading_normal)) return false;
+    } else if (material.boundary != Boundary::matched && material.ior != 1) {
       const InterfaceRay ray = meet_interface(walker.direction, hit.normal, hit.shading_normal, ior());
       if (random.next() < ray.reflectance) {
         send_specular(state, tracer.leave(hit.object, hit.point, hit.normal, ray.reflected));
@@ -169,6 +181,7 @@ struct PathTracer<G>::Passage {
   // What the boundary does with a walk that reaches it from inside; nothing when it sends the walk back.
   [[nodiscard]] std::optional<Step> leave(const Crossing& crossing) noexcept {
     if (material.boundary == Boundary::matched) return leave_matched(crossing);
+    if (is_rough()) return leave_rough(crossing);
     if (material.boundary == Boundary::dielectric) return leave_dielectric(crossing);
     if (material.ior != 1) return leave_refracted(crossing);
     state.weight = walker.weight;
@@ -203,6 +216,46 @@ struct PathTracer<G>::Passage {
     return Step::go_on;
   }
 
+  [[nodiscard]] bool is_rough() const noexcept {
+    return material.boundary == Boundary::dielectric && material.roughness > 0;
+  }
+
+  // Meets the rough interface from either side, samples the lights outside, and sends the path on: true when
+  // it leaves the surface to the outside, with the state set; otherwise the walker's direction is.
+  [[nodiscard]] bool meet_rough(const Vec3& point, const Vec3& normal, const Vec3& shading_normal) noexcept {
+    const RoughDielectric surface{ggx_alpha(static_cast<Real>(material.roughness)), ior()};
+    const RoughInterface interface(normal, shading_normal, surface, walker.direction);
+    walker.weight.vertex();
+    State vertex;
+    vertex.weight = walker.weight;
+    vertex.ray = tracer.leave(hit.object, point, normal, {});
+    vertex.vertex = vertex.ray.origin;
+    vertex.departure = vertex.ray.departure;
+    vertex.light_choice = tracer.every_light();
+    vertex.scattered = true;
+    const auto weigh = [&](const Vec3& d, Real competing, bool delta) {
+      return interface.weigh(d, competing, delta, random);
+    };
+    for (std::size_t light = 0; light < tracer.sampled_lights(); ++light)
+      tracer.sample_direct(light, vertex, weigh, next_pair(), sink);
+    const RoughInterface::Sample sample = interface.sample(random);
+    if (!sample.outside) {
+      walker.direction = sample.direction;
+      return false;
+    }
+    vertex.ray.direction = sample.direction;
+    vertex.pdf = sample.density;
+    if (std::isinf(sample.density)) send_specular(vertex, vertex.ray);
+    state = vertex;
+    return true;
+  }
+
+  [[nodiscard]] std::optional<Step> leave_rough(const Crossing& crossing) noexcept {
+    if (meet_rough(crossing.point, crossing.normal, crossing.shading_normal)) return Step::go_on;
+    place_inside(crossing.point, crossing.normal);
+    return std::nullopt;
+  }
+
   // A Lambertian under a smooth interface: part of it is refracted out, where lights are sampled, the rest
   // goes back.
   [[nodiscard]] std::optional<Step> leave_refracted(const Crossing& crossing) noexcept {
@@ -216,8 +269,8 @@ struct PathTracer<G>::Passage {
     vertex.departure = origin.departure;
     vertex.light_choice = tracer.every_light();
     for (std::size_t light = 0; light < tracer.sampled_lights(); ++light)
-      tracer.sample_direct(
-          light, vertex, [&](const Vec3& d) { return lobe.eval(d); }, next_pair(), sink);
+      tracer.sample_direct(light, vertex, detail::Weighing{[&](const Vec3& d) { return lobe.eval(d); }},
+                           next_pair(), sink);
     const Vec2 u = next_pair();
     const auto direction = lobe.sample(u, random.next());
     if (!direction) {

@@ -11,6 +11,7 @@
 #include "walk/lights.h"
 #include "walk/lobe.h"
 #include "walk/random_walk.h"
+#include "walk/rough_interface.h"
 #include "walk/sink.h"
 
 namespace meander {
@@ -95,8 +96,8 @@ class PathTracer {
   void collect_light(const State& state, std::size_t light, const LightHit& hit, S& sink) const noexcept;
   template <Sink S>
   void collect_environment(const State& state, S& sink) const noexcept;
-  template <Sink S, class Density>
-  void sample_direct(std::size_t light, const State& vertex, const Density& density, const Vec2& u,
+  template <Sink S, class Weigh>
+  void sample_direct(std::size_t light, const State& vertex, const Weigh& weigh, const Vec2& u,
                      S& sink) noexcept;
 
   // The lights that a vertex samples.

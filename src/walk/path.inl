@@ -55,8 +55,8 @@ auto PathTracer<G>::reflect(const SurfaceHit& hit, const LambertLobe& lobe, Stat
   for (std::size_t light = 0; light < sampled_lights(); ++light) {
     const Real u1 = random.next();
     const Real u2 = random.next();
-    sample_direct(
-        light, state, [&](const Vec3& d) { return lobe.eval(d); }, {u1, u2}, sink);
+    sample_direct(light, state, detail::Weighing{[&](const Vec3& d) { return lobe.eval(d); }}, {u1, u2},
+                  sink);
   }
   const Real u1 = random.next();
   const Real u2 = random.next();
@@ -123,25 +123,29 @@ void PathTracer<G>::collect_environment(const State& state, S& sink) const noexc
   sink.add(detail::make_contribution(weight, weight.throughput * found * emitted, 0));
 }
 
-// One light seen from a vertex whose lobe or phase function has the density `density(direction)`, which is
-// also its value; the balance heuristic against the path finding the light by itself, over all channels.
+// One light seen from a vertex. weigh(direction, competing, delta) is f / (competing + f), f the density of
+// the vertex's lobe or phase function, which is also its value: the balance heuristic against the path
+// finding the light by itself, over all channels; for a light without extent it is f / competing.
 template <SceneGeometry G>
-template <Sink S, class Density>
-void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const Density& density,
-                                  const Vec2& u, S& sink) noexcept {
+template <Sink S, class Weigh>
+void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const Weigh& weigh, const Vec2& u,
+                                  S& sink) noexcept {
   const auto sample = sample_light(scene_, light, vertex.vertex, u);
   if (!sample) return;
-  const Real pdf = density(sample->direction);
-  if (!(pdf > 0)) return;
+  // A cheap look first: where the lobe is black no shadow ray is needed.
+  const PathWeight& weight = vertex.weight;
+  if constexpr (requires { weigh.density(sample->direction); })
+    if (!(weigh.density(sample->direction) > 0)) return;
   ++counters_.rays;
   const Rgb through =
       geometry_.transmittance({vertex.vertex, sample->direction, vertex.departure}, sample->distance);
   if (detail::is_black(through)) return;
-  const PathWeight& weight = vertex.weight;
   const Rgb passed = weight.ratio * through;
-  Real total = average(weight.ratio) * sample->pdf * vertex.light_choice;
-  if (!sample->delta) total += average(passed) * pdf;
-  const Rgb radiance = weight.throughput * passed * (pdf / total) * sample->radiance;
+  const Real mean = average(passed);
+  const Real competing = sample->pdf * vertex.light_choice * average(weight.ratio) / mean;
+  const Real part = weigh(sample->direction, competing, sample->delta);
+  if (!(part > 0)) return;
+  const Rgb radiance = weight.throughput * (passed / mean) * part * sample->radiance;
   sink.add(detail::make_contribution(weight, radiance, light_group(scene_, light)));
 }
 

@@ -90,6 +90,16 @@ TEST_CASE("a lit body looks the same whether its light is sampled or found: diel
   check_same_image({"jelly", jelly});
 }
 
+TEST_CASE("a lit body looks the same whether its light is sampled or found: rough dielectric") {
+  for (const double roughness : {0.2, 0.6}) {
+    const TranslucentMaterial frosted{{Rgb(2, 3, 5), Rgb(Real(0.95), Real(0.9), Real(0.98)), Real(0.3)},
+                                      Boundary::dielectric,
+                                      1.5,
+                                      roughness};
+    check_same_image({"frosted", frosted});
+  }
+}
+
 TEST_CASE("a point light stands for a small ball of the same power") {
   Scene ball = lit_scene(translucent("milk", {Rgb(2), Rgb(Real(0.9)), 0}, Boundary::matched));
   ball.lights.pop_back();

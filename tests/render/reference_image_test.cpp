@@ -74,11 +74,15 @@ TEST_CASE("spheres show their exact pixel averages: isotropic, anisotropic, and 
 }
 
 TEST_CASE("a white body in a white surround vanishes behind any index of refraction") {
-  for (const Boundary boundary : {Boundary::diffuse, Boundary::dielectric}) {
+  const std::pair<Boundary, double> surfaces[]{{Boundary::diffuse, 0},
+                                               {Boundary::dielectric, 0},
+                                               {Boundary::dielectric, 0.1},
+                                               {Boundary::dielectric, 0.8}};
+  for (const auto& [boundary, roughness] : surfaces) {
     Scene scene = mixed_scene();
     scene.lights.clear();
     scene.environment.radiance = Rgb(1);
-    TranslucentMaterial white{{Rgb(4), Rgb(1), Real(0.5)}, boundary, 1.5};
+    TranslucentMaterial white{{Rgb(4), Rgb(1), Real(0.5)}, boundary, 1.5, roughness};
     scene.materials[0] = {"a", white};
     white.ior = 1.33;
     scene.materials[1] = {"b", white};
