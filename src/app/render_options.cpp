@@ -14,9 +14,24 @@
 #include "io/output_file.h"
 #include "io/scene_file.h"
 #include "render/parallel.h"
+#include "trace/overlaps.h"
 
 namespace meander {
 namespace {
+
+void warn(const std::string& text) { std::cerr << "meander: warning: " << text << '\n'; }
+
+// Whether a light that no ray can hit stands before a body that lets no light be sampled through its surface.
+bool hides_lights(const Scene& scene) {
+  const bool delta = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return std::holds_alternative<PointLight>(light.shape) ||
+           std::holds_alternative<DirectionalLight>(light.shape);
+  });
+  return delta && std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+           const auto* body = std::get_if<TranslucentMaterial>(&scene.materials[object.material].kind);
+           return body && body->boundary == Boundary::dielectric && body->roughness == 0;
+         });
+}
 
 Budget budget_of(const RenderOptions& options) {
   Budget budget{options.spp, options.seconds, options.error};
@@ -94,10 +109,17 @@ FinishedRun run_render(const RenderOptions& options, std::span<const std::string
   if (!options.stats.empty()) check_writable(options.stats, kJson);
   SceneFile file = load_scene(options.scene, options.edits);
   if (!options.quiet)
-    for (const std::string& warning : file.warnings) std::cerr << "meander: warning: " << warning << '\n';
+    for (const std::string& warning : file.warnings) warn(warning);
   FinishedRun run;
   run.job = make_job(options, std::move(file.scene));
   check_memory(run.job);
+  if (!options.quiet) {
+    for (const std::string& warning : overlap_warnings(*run.job.scene, *run.job.geometry)) warn(warning);
+    if (hides_lights(*run.job.scene))
+      warn(
+          "point and directional lights cannot be seen through a smooth dielectric: give it a roughness, or "
+          "the light a size");
+  }
   const std::atomic<bool>& stop = watch_interrupts();
   const Budget budget = budget_of(options);
   ProgressReport progress(budget, options.quiet);

@@ -199,19 +199,25 @@ auto Geometry::approach(std::size_t object, const Ray& ray, const F& f) const no
   return std::visit([&](const auto& shape) { return f(shape, seen, placement); }, body.shape);
 }
 
+std::optional<SurfaceHit> Geometry::hit_within(std::size_t object, const Ray& ray,
+                                               double distance) const noexcept {
+  const auto hit =
+      approach(object, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
+        return first_hit(shape, seen, placement, distance);
+      });
+  if (!hit) return std::nullopt;
+  return SurfaceHit{object,      hit->distance,       hit->point,
+                    hit->normal, hit->shading_normal, glm::dot(hit->normal, ray.direction) < 0};
+}
+
+std::optional<SurfaceHit> Geometry::hit_object(std::size_t object, const Ray& ray) const noexcept {
+  return hit_within(object, ray, kInfinity);
+}
+
 std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray) const noexcept {
   std::optional<SurfaceHit> closest;
-  double distance = kInfinity;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto hit =
-        approach(i, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
-          return first_hit(shape, seen, placement, distance);
-        });
-    if (!hit) continue;
-    distance = hit->distance;
-    closest = SurfaceHit{
-        i, distance, hit->point, hit->normal, hit->shading_normal, glm::dot(hit->normal, ray.direction) < 0};
-  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (const auto hit = hit_within(i, ray, closest ? closest->distance : kInfinity)) closest = hit;
   return closest;
 }
 

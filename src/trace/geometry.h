@@ -21,9 +21,15 @@ class Geometry {
   /// The first surface along a ray, from either side.
   [[nodiscard]] std::optional<SurfaceHit> closest_hit(const Ray& ray) const noexcept;
 
+  /// The first surface of one object along a ray, whatever else stands there.
+  [[nodiscard]] std::optional<SurfaceHit> hit_object(std::size_t object, const Ray& ray) const noexcept;
+
   /// Along `distance` (may be infinite) of a ray: what matched bodies let through unscattered, per channel; 0
   /// where any other object stands in the way.
   [[nodiscard]] Rgb transmittance(const Ray& ray, double distance) const noexcept;
+
+  /// Half the object's largest extent, about.
+  [[nodiscard]] Real size(std::size_t object) const noexcept { return bodies_[object].size; }
 
   /// The object's own origin, in the world.
   [[nodiscard]] const DVec3& center(std::size_t object) const noexcept { return bodies_[object].center; }
@@ -58,6 +64,8 @@ class Geometry {
 
   [[nodiscard]] Body make_body(const Object& object, const Scene& scene) const;
   [[nodiscard]] static bool holds_light(const Body& body, const Scene& scene) noexcept;
+  [[nodiscard]] std::optional<SurfaceHit> hit_within(std::size_t object, const Ray& ray,
+                                                     double distance) const noexcept;
   template <class F>
   [[nodiscard]] auto approach(std::size_t object, const Ray& ray, const F& f) const noexcept;
 

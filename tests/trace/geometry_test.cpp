@@ -5,6 +5,7 @@
 #include "math/random.h"
 #include "math/warp.h"
 #include "trace/geometry.h"
+#include "trace/overlaps.h"
 
 using namespace meander;
 
@@ -158,4 +159,19 @@ TEST_CASE("an unbounded slab is met far from its middle, on its very face") {
   REQUIRE(hit);
   CHECK(hit->point.y == 1);
   CHECK(hit->distance == doctest::Approx(1e4).epsilon(1e-3));
+}
+
+TEST_CASE("bodies that overlap or nest are named, bodies that touch or stand apart are not") {
+  const auto count = [](const decltype(Object::shape)& shape, const DVec3& shift, double scale) {
+    Scene scene = one_object(SphereShape{}, {}, Boundary::matched);
+    scene.objects.push_back({"second", shape, 0, {shift, DVec3(0), DVec3(scale)}});
+    return overlap_warnings(scene, Geometry(scene, 1)).size();
+  };
+  CHECK(count(SphereShape{}, {1.5, 0, 0}, 1) == 1);
+  CHECK(count(SphereShape{}, {0.1, 0, 0}, 0.3) == 1);
+  CHECK(count(BoxShape{}, {0, 1.5, 0}, 1) == 1);
+  CHECK(count(kKnot, {0, 0, 0}, 1) == 1);
+  CHECK(count(SphereShape{}, {2, 0, 0}, 1) == 0);
+  CHECK(count(BoxShape{}, {0, 2, 0}, 1) == 0);
+  CHECK(count(kKnot, {0, 3, 0}, 1) == 0);
 }
