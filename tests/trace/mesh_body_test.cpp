@@ -5,11 +5,7 @@
 
 #include "math/random.h"
 #include "math/warp.h"
-#include "stats/hypothesis.h"
-#include "stats/moments.h"
 #include "trace/mesh_body.h"
-#include "walk/lobe.h"
-#include "walk/random_walk.h"
 
 using namespace meander;
 
@@ -43,46 +39,6 @@ void append(Mesh& mesh, const Mesh& other) {
     mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
 }
 
-struct SilentEvents {
-  double path = 0;
-  void segment(const Walker&, Real distance) noexcept { path += double{distance}; }
-  void absorbed(const Rgb&) const noexcept {}
-  void scattered(const Walker&) const noexcept {}
-  [[nodiscard]] bool stop() const noexcept { return false; }
-};
-
-// Walks that enter a mesh uniformly over its area with a cosine distribution.
-struct UniformEntry {
-  const Mesh& mesh;
-  DVec3 center;
-  std::vector<double> cumulative;
-
-  UniformEntry(const Mesh& m, const DVec3& c) : mesh(m), center(c) {
-    double sum = 0;
-    for (const Triangle& t : m.triangles) cumulative.push_back(sum += 0.5 * glm::length(double_area(t)));
-  }
-  [[nodiscard]] DVec3 double_area(const Triangle& t) const {
-    const DVec3& a = mesh.positions[t[0]];
-    return glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
-  }
-  void start(Walker& walker, Random& random, Real offset) const {
-    const double target = (random.next() + random.next() * 0x1p-24) * cumulative.back();
-    const auto index = std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin();
-    const Triangle& t = mesh.triangles[std::min<std::size_t>(index, mesh.triangles.size() - 1)];
-    Real u = random.next();
-    Real v = random.next();
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    const DVec3& a = mesh.positions[t[0]];
-    const DVec3 p =
-        a + double{u} * (mesh.positions[t[1]] - a) + double{v} * (mesh.positions[t[2]] - a) - center;
-    const Vec3 normal(glm::normalize(double_area(t)));
-    const Real u1 = random.next();
-    const Real u2 = random.next();
-    walker.position = Vec3(p) - offset * normal;
-    walker.direction = make_lobe(-normal, -normal).sample({u1, u2});
-  }
-};
-
 }  // namespace
 
 TEST_CASE("a box mesh is left where the exact box is left") {
@@ -107,34 +63,6 @@ TEST_CASE("a box mesh is left where the exact box is left") {
     CHECK(glm::dot(exit.normal, d) > 0);
     const Crossing inside = body.first_crossing(p, d, static_cast<Real>(0.9 * exact));
     CHECK(inside.kind == CrossingKind::none);
-  }
-}
-
-TEST_CASE("walks in a torus knot of 100k triangles have mean path 4V/S and none is lost") {
-  const Device device = make_device(1);
-  const Mesh mesh = make_torus_knot();
-  DVec3 center;
-  const MeshBody body(device.get(), mesh, DMat3(1), center);
-  const UniformEntry entry(mesh, center);
-  const double expected = 4 * signed_volume(mesh) / surface_area(mesh);
-  for (const auto& [path, g] : {std::pair(0.3, 0.8), std::pair(0.03, 0.0)}) {
-    const WalkModel model{{Rgb(static_cast<Real>(1 / path)), Rgb(1), static_cast<Real>(g)},
-                          Estimator::implicit};
-    Moments length;
-    Moments order;
-    std::uint64_t leaked = 0;
-    for (std::uint32_t i = 0; i < 40000; ++i) {
-      Random random = stream(2, 0, i);
-      Walker walker;
-      entry.start(walker, random, Real(0x1p-20));
-      SilentEvents events;
-      leaked += random_walk(body, model, walker, random, events).end == WalkEnd::leaked;
-      length.add(events.path);
-      order.add(walker.weight.order);
-    }
-    CHECK(leaked == 0);
-    CHECK(std::abs(z_score(length.mean, expected, length.standard_error())) < 4);
-    CHECK(std::abs(z_score(order.mean, expected / path, order.standard_error())) < 4);
   }
 }
 
