@@ -42,6 +42,7 @@ struct PathTracer<G>::Passage {
   State& state;
   Random& random;
   S& sink;
+  bool holds_light = tracer.geometry_.holds_light(hit.object);  // asked once a passage, not once a step
   Walker walker = {};
 
   /// Takes the path from the hit to where it leaves the body, is mirrored off it, or ends.
@@ -61,7 +62,7 @@ struct PathTracer<G>::Passage {
 
   // What the walk reports as it goes.
   void segment(const Walker&, Real distance) noexcept {
-    if (tracer.geometry_.holds_light(hit.object)) collect_inside(distance);
+    if (holds_light) collect_inside(distance);
   }
   void absorbed(const Rgb&) const noexcept {}
   [[nodiscard]] bool stop() const noexcept { return tracer.stop(); }

@@ -1,6 +1,5 @@
 // Runs the rows of the reference tables through `measure` and holds the z-scores to what chance allows: the
 // largest |z| to the Sidak bound of the family at level 1e-3, the mean of z^2 to within 4 sqrt(2 / N) of 1.
-#define DOCTEST_CONFIG_DISABLE
 #include <cmath>
 #include <cstdio>
 #include <cstring>
