@@ -57,6 +57,37 @@ double upper_gamma_fraction(double a, double x) {
   return value * std::exp(a * std::log(x) - x - std::lgamma(a));
 }
 
+// The continued fraction of I_x(a, b), for x < (a + 1) / (a + b + 2).
+double beta_fraction(double x, double a, double b) {
+  constexpr double kTiny = 1e-300;
+  const auto away_from_zero = [](double v) { return std::abs(v) < kTiny ? kTiny : v; };
+  double c = 1;
+  double d = 1 / away_from_zero(1 - (a + b) * x / (a + 1));
+  double value = d;
+  for (int m = 1; m < 10'000; ++m) {
+    const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
+    d = 1 / away_from_zero(1 + even * d);
+    c = away_from_zero(1 + even / c);
+    value *= c * d;
+    const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
+    d = 1 / away_from_zero(1 + odd * d);
+    c = away_from_zero(1 + odd / c);
+    value *= c * d;
+    if (std::abs(c * d - 1) < 1e-15) break;
+  }
+  return value;
+}
+
+// I_x(a, b), x in [0, 1] given with y = 1 - x, so that neither end loses digits.
+double incomplete_beta(double x, double y, double a, double b) {
+  if (x <= 0) return 0;
+  if (y <= 0) return 1;
+  const double front =
+      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log(y));
+  if (x < (a + 1) / (a + b + 2)) return front * beta_fraction(x, a, b) / a;
+  return 1 - front * beta_fraction(y, b, a) / b;
+}
+
 }  // namespace
 
 double normal_cdf(double z) noexcept { return 0.5 * std::erfc(-z * kInverseSqrt2); }
@@ -84,6 +115,25 @@ double upper_incomplete_gamma(double a, double x) noexcept {
 
 double chi_square_survival(double x, int degrees) noexcept {
   return upper_incomplete_gamma(0.5 * degrees, 0.5 * x);
+}
+
+double student_two_sided_p(double t, double degrees) noexcept {
+  if (std::isinf(t)) return 0;
+  const double whole = degrees + t * t;
+  return incomplete_beta(degrees / whole, t * t / whole, 0.5 * degrees, 0.5);
+}
+
+double student_threshold(double p, double degrees) noexcept {
+  if (p >= 1) return 0;
+  // In log t the tail is smooth and falls: bisection between ends that bracket it.
+  double low = -40;
+  double high = 1;
+  while (high < 700 && student_two_sided_p(std::exp(high), degrees) > p) high *= 2;
+  for (int step = 0; step < 200 && high - low > 1e-13; ++step) {
+    const double middle = 0.5 * (low + high);
+    (student_two_sided_p(std::exp(middle), degrees) > p ? low : high) = middle;
+  }
+  return std::exp(0.5 * (low + high));
 }
 
 double kolmogorov_survival(double d, std::size_t n) noexcept {
