@@ -1,0 +1,38 @@
+#include "app/file_watch.h"
+
+#include <system_error>
+
+namespace meander {
+
+bool FileWatch::stamp_of(const std::string& file, Stamp& stamp) {
+  std::error_code failed;
+  stamp.time = std::filesystem::last_write_time(file, failed);
+  if (failed) return false;
+  stamp.size = std::filesystem::file_size(file, failed);
+  return !failed;
+}
+
+void FileWatch::watch(const std::vector<std::string>& files) {
+  std::map<std::string, Stamp> next;
+  for (const std::string& file : files) {
+    Stamp stamp;
+    if (const auto known = seen_.find(file); known != seen_.end())
+      next.insert(*known);
+    else if (stamp_of(file, stamp))
+      next.emplace(file, stamp);
+  }
+  seen_ = std::move(next);
+}
+
+std::vector<std::string> FileWatch::changed() {
+  std::vector<std::string> files;
+  for (auto& [file, seen] : seen_) {
+    Stamp stamp;
+    if (!stamp_of(file, stamp) || stamp == seen) continue;
+    seen = stamp;
+    files.push_back(file);
+  }
+  return files;
+}
+
+}  // namespace meander

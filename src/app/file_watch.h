@@ -1,0 +1,31 @@
+// Notices files that change on disk: asked now and then, no thread of its own.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace meander {
+
+class FileWatch {
+ public:
+  /// Watches these files from now on, and no others; a file that was watched already keeps its memory.
+  void watch(const std::vector<std::string>& files);
+
+  /// The watched files whose time or size is another than when last seen, once each. A file that is gone, as
+  /// while an editor replaces it, is not reported until it is back.
+  [[nodiscard]] std::vector<std::string> changed();
+
+ private:
+  struct Stamp {
+    std::filesystem::file_time_type time;
+    std::uintmax_t size = 0;
+    [[nodiscard]] bool operator==(const Stamp&) const = default;
+  };
+  [[nodiscard]] static bool stamp_of(const std::string& file, Stamp& stamp);
+
+  std::map<std::string, Stamp> seen_;
+};
+
+}  // namespace meander
