@@ -6,20 +6,9 @@
 #include <vector>
 
 #include "display/shaders.h"
+#include "gl/state.h"
 
 namespace meander {
-namespace {
-
-// What an interface or another view may have left on, and a film must not be drawn through.
-void plain_state(const Functions& gl) {
-  for (const GLenum state : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_DITHER, GL_FRAMEBUFFER_SRGB,
-                             GL_SCISSOR_TEST, GL_STENCIL_TEST}) {
-    gl.disable(state);
-  }
-}
-
-}  // namespace
-
 FilmView::FilmView(const Functions& gl)
     : gl_(&gl),
       program_(gl, shader_source("film.vert"), shader_source("film.frag")),
@@ -40,7 +29,7 @@ void FilmView::upload(const Image& linear, const Region& region) {
 
 void FilmView::draw(const ViewOptions& options) const {
   assert(texture_.width() > 0 && std::isfinite(options.exposure));
-  plain_state(*gl_);
+  reset_state(*gl_);
   program_.use();
   texture_.bind(0);
   program_.set("film", 0);

@@ -1,6 +1,7 @@
 // A linked pair of a vertex and a fragment shader.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "gl/name.h"
@@ -22,6 +23,8 @@ class Program {
   /// Sets a uniform of the program in use; a name the shaders do not have is our own mistake.
   void set(const char* uniform, float value) const;
   void set(const char* uniform, int value) const;
+  void set(const char* uniform, const std::array<float, 2>& value) const;
+  void set(const char* uniform, const std::array<float, 4>& value) const;
 
  private:
   static void destroy(const Functions& gl, GLuint id) { gl.delete_program(id); }
