@@ -3,12 +3,9 @@
 #pragma once
 
 #include "io/toml_table.h"
-#include "medium/similarity.h"
+#include "scene/material_description.h"
 
 namespace meander {
-
-/// The three ways to give a medium.
-enum class Parametrisation { color, albedo, sigma };
 
 /// The parametrisation that a key belongs to, if it belongs to one.
 [[nodiscard]] std::optional<Parametrisation> parametrisation_of(std::string_view key);

@@ -153,9 +153,8 @@ class SceneReader {
   SceneFile read() {
     Scene& scene = file_.scene;
     scene.name = path_;
-    double millimetres_per_unit = 1;
     if (auto table = root_.table("scene")) {
-      millimetres_per_unit = table->number("millimetres_per_unit", kPositive).value_or(1);
+      scene.millimetres_per_unit = table->number("millimetres_per_unit", kPositive).value_or(1);
       table->finish();
     }
     if (auto table = root_.table("camera")) read_camera(*table, scene.camera);
@@ -164,7 +163,7 @@ class SceneReader {
     if (auto table = root_.table("environment")) read_environment(*table, path_, scene.environment);
     for (const toml::table* table : list("light"))
       scene.lights.push_back(read_light(TomlTable(*table, path_, "[[light]]"), scene.lights.size()));
-    for (const toml::table* table : list("material")) read_named_material(*table, millimetres_per_unit);
+    for (const toml::table* table : list("material")) read_named_material(*table);
     for (const toml::table* table : list("object")) read_object(TomlTable(*table, path_, "[[object]]"));
     root_.finish();
     return std::move(file_);
@@ -180,13 +179,13 @@ class SceneReader {
     return tables;
   }
 
-  void read_named_material(const toml::table& raw, double millimetres_per_unit) {
+  void read_named_material(const toml::table& raw) {
     TomlTable table(raw, path_, "[[material]]");
     const std::string name = table.required(table.text("name"), "name");
     for (const Material& other : file_.scene.materials)
       if (other.name == name)
         throw Error(table.place("name"), "there are two materials named '" + name + "'");
-    Material material = read_material(table, millimetres_per_unit);
+    Material material = read_material(table, file_.scene.millimetres_per_unit);
     material.name = name;
     table.finish();
     file_.scene.materials.push_back(std::move(material));

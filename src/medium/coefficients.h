@@ -18,6 +18,9 @@ struct Coefficients {
                                                     double g);
 [[nodiscard]] Coefficients coefficients_from_color(const DVec3& color, const DVec3& radius, double g,
                                                    Inversion inversion, Surface surface = {});
+/// The exact inversion for the map's own g and surface.
+[[nodiscard]] Coefficients coefficients_from_color(const DVec3& color, const DVec3& radius,
+                                                   const ColorMap& map);
 
 /// There and back; a vacuum channel has albedo 0.
 [[nodiscard]] Medium make_medium(const Coefficients& coefficients);

@@ -52,17 +52,25 @@ Coefficients coefficients_from_albedo(const DVec3& albedo, const DVec3& mean_fre
 
 Coefficients coefficients_from_color(const DVec3& color, const DVec3& radius, double g, Inversion inversion,
                                      Surface surface) {
-  const bool exact = inversion == Inversion::exact;
-  const ColorMap map(exact ? g : 0.0, exact ? surface : Surface{});
+  if (inversion == Inversion::exact) return coefficients_from_color(color, radius, ColorMap(g, surface));
   Coefficients result{{}, {}, g};
   for (int c = 0; c < 3; ++c) {
     assert(color[c] >= 0 && color[c] <= 1 && radius[c] > 0);
-    const Channel channel = exact
-                                ? Channel{1 / radius[c], map.albedo(color[c]), map.one_minus_albedo(color[c])}
-                            : inversion == Inversion::chiang ? chiang(color[c], radius[c], g)
-                                                             : van_de_hulst(color[c], radius[c], g);
+    const Channel channel = inversion == Inversion::chiang ? chiang(color[c], radius[c], g)
+                                                           : van_de_hulst(color[c], radius[c], g);
     result.sigma_s[c] = channel.albedo * channel.sigma_t;
     result.sigma_a[c] = channel.one_minus_albedo * channel.sigma_t;
+  }
+  return result;
+}
+
+Coefficients coefficients_from_color(const DVec3& color, const DVec3& radius, const ColorMap& map) {
+  Coefficients result{{}, {}, map.g()};
+  for (int c = 0; c < 3; ++c) {
+    assert(color[c] >= 0 && color[c] <= 1 && radius[c] > 0);
+    const double sigma_t = 1 / radius[c];
+    result.sigma_s[c] = map.albedo(color[c]) * sigma_t;
+    result.sigma_a[c] = map.one_minus_albedo(color[c]) * sigma_t;
   }
   return result;
 }
@@ -107,7 +115,10 @@ Medium medium_from_color(const DVec3& color, const DVec3& radius, double g, Inve
 }
 
 DVec3 color_of(const DVec3& albedo, double g, Surface surface) {
-  const ColorMap map(g, surface);
+  return color_of(albedo, ColorMap(g, surface));
+}
+
+DVec3 color_of(const DVec3& albedo, const ColorMap& map) {
   return {map.color(albedo.x), map.color(albedo.y), map.color(albedo.z)};
 }
 

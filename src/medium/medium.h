@@ -15,6 +15,8 @@ struct Medium {
   Real g = 0;
 };
 
+class ColorMap;
+
 enum class Inversion { exact, chiang, van_de_hulst };
 
 /// sigma_s and sigma_a >= 0 per scene unit.
@@ -35,5 +37,6 @@ enum class Inversion { exact, chiang, van_de_hulst };
 /// and g delivers under this surface: monotone in albedo, 0 at 0 and 1 at 1. Accurate as ColorMap, which to
 /// keep where it is asked more than once for one g and surface.
 [[nodiscard]] DVec3 color_of(const DVec3& albedo, double g, Surface surface = {});
+[[nodiscard]] DVec3 color_of(const DVec3& albedo, const ColorMap& map);
 
 }  // namespace meander

@@ -3,15 +3,15 @@
 #include <cassert>
 #include <cmath>
 
-#include "medium/color_map.h"
+#include "medium/color_maps.h"
 
 namespace meander {
 
 namespace {
 
-Coefficients with_look(const Coefficients& medium, double g, const Surface& surface) {
-  const ColorMap before(medium.g, surface);
-  const ColorMap after(g, surface);
+Coefficients with_look(const Coefficients& medium, double g, const Surface& surface, ColorMaps& maps) {
+  const ColorMap before = maps.of(medium.g, surface);
+  const ColorMap after = maps.of(g, surface);
   const DVec3 albedo = albedo_of(medium);
   const DVec3 sigma_t_reduced = sigma_t_of(reduced(medium));
   Coefficients result{{}, {}, g};
@@ -28,11 +28,16 @@ Coefficients with_look(const Coefficients& medium, double g, const Surface& surf
 }  // namespace
 
 Coefficients with_g(const Coefficients& medium, double g, GLock lock, Surface surface) {
+  ColorMaps maps;
+  return with_g(medium, g, lock, surface, maps);
+}
+
+Coefficients with_g(const Coefficients& medium, double g, GLock lock, Surface surface, ColorMaps& maps) {
   assert(std::abs(g) < 1);
   if (g == medium.g) return medium;
   switch (lock) {
     case GLock::look:
-      return with_look(medium, g, surface);
+      return with_look(medium, g, surface, maps);
     case GLock::sigma_t:
       return {medium.sigma_s, medium.sigma_a, g};
     case GLock::sigma_s_reduced:

@@ -5,6 +5,8 @@
 
 namespace meander {
 
+class ColorMaps;
+
 /// What a change of g holds, per channel.
 /// look: the colour of the half-space under the material's surface (ColorMap) and the reduced extinction
 /// sigma_t' = sigma_a + sigma_s (1 - g).
@@ -16,6 +18,9 @@ enum class GLock { look, sigma_t, sigma_s_reduced };
 /// The medium with another g, |g| < 1. `look` needs two ColorMaps, tens of milliseconds at most, and is as
 /// exact as they are.
 [[nodiscard]] Coefficients with_g(const Coefficients& medium, double g, GLock lock, Surface surface);
+/// The same with maps that are kept for the next time.
+[[nodiscard]] Coefficients with_g(const Coefficients& medium, double g, GLock lock, Surface surface,
+                                  ColorMaps& maps);
 /// The same, within what floats keep of an albedo near 1.
 [[nodiscard]] Medium with_g(const Medium& medium, double g, GLock lock, Surface surface);
 

@@ -67,61 +67,92 @@ Pick pick(const double* sums, int count, double u) noexcept {
   throw Error(Fault::input, text.str());
 }
 
+// Whether a value of the picture is a radiance; false for a NaN.
+bool is_radiance(float value, double scale) noexcept {
+  return value >= 0 && static_cast<float>(scale * static_cast<double>(value)) <= kLargestRadiance;
+}
+
+double turns(double rotation) noexcept { return std::fmod(rotation, 360.0) / 360; }
+
 }  // namespace
 
-EnvironmentImage::EnvironmentImage(const Image& image, double rotation, double scale)
-    : width_(image.width), height_(image.height), turn_(std::fmod(rotation, 360.0) / 360) {
+std::shared_ptr<const EnvironmentImage::Picture> EnvironmentImage::read_picture(const Image& image,
+                                                                                double scale) {
   assert(image.width > 0 && image.height > 0 && image.channels >= 3 && scale >= 0);
-  const std::size_t rows = static_cast<std::size_t>(height_);
-  texels_.reserve(rows * width_);
-  luminances_.reserve(rows * (width_ + 1));
-  powers_.reserve(rows + 1);
-  powers_.push_back(0);
-  for (int y = 0; y < height_; ++y) {
+  auto picture = std::make_shared<Picture>();
+  picture->width = image.width;
+  picture->height = image.height;
+  const std::size_t rows = static_cast<std::size_t>(image.height);
+  picture->texels.reserve(rows * image.width);
+  picture->luminances.reserve(rows * (image.width + 1));
+  picture->powers.reserve(rows + 1);
+  picture->powers.push_back(0);
+  for (int y = 0; y < image.height; ++y) {
     double sum = 0;
-    luminances_.push_back(sum);
-    for (int x = 0; x < width_; ++x) {
+    picture->luminances.push_back(sum);
+    for (int x = 0; x < image.width; ++x) {
       const float* values = image.at(x, y);
-      const glm::vec3 texel(scale * glm::dvec3(values[0], values[1], values[2]));
-      for (int c = 0; c < 3; ++c)
-        if (!(values[c] >= 0 && texel[c] <= kLargestRadiance)) refuse_texel(x, y, values, scale);
-      texels_.push_back(texel);
-      sum += luminance(Rgb(texel));
-      luminances_.push_back(sum);
+      for (int c = 0; c < 3; ++c) {
+        if (!is_radiance(values[c], scale)) refuse_texel(x, y, values, scale);
+        picture->brightest = std::max(picture->brightest, values[c]);
+      }
+      picture->texels.emplace_back(values[0], values[1], values[2]);
+      sum += luminance(Rgb(picture->texels.back()));
+      picture->luminances.push_back(sum);
     }
-    powers_.push_back(powers_.back() + sum * (kTurn / width_) * height_of_row(y, height_));
+    picture->powers.push_back(picture->powers.back() +
+                              sum * (kTurn / image.width) * height_of_row(y, image.height));
+  }
+  return picture;
+}
+
+EnvironmentImage::EnvironmentImage(const Image& image, double rotation, double scale)
+    : picture_(read_picture(image, scale)), turn_(turns(rotation)), scale_(static_cast<Real>(scale)) {}
+
+EnvironmentImage::EnvironmentImage(const EnvironmentImage& picture, double rotation, double scale)
+    : picture_(picture.picture_), turn_(turns(rotation)), scale_(static_cast<Real>(scale)) {
+  assert(scale >= 0);
+  if (is_radiance(picture_->brightest, scale)) return;
+  for (std::size_t i = 0; i < picture_->texels.size(); ++i) {
+    const glm::vec3& texel = picture_->texels[i];
+    if (is_radiance(std::max({texel.x, texel.y, texel.z}), scale)) continue;
+    const std::size_t width = static_cast<std::size_t>(picture_->width);
+    refuse_texel(static_cast<int>(i % width), static_cast<int>(i / width), &texel.x, scale);
   }
 }
 
 std::size_t EnvironmentImage::texel_of(const Vec3& direction) const noexcept {
+  const int width = picture_->width;
+  const int height = picture_->height;
   const DVec3 d(direction);
   const double turn = std::atan2(d.x, -d.z) / kTurn + 0.5 + turn_;
   const double down = std::atan2(std::hypot(d.x, d.z), d.y) / glm::pi<double>();
-  const int x = std::min(static_cast<int>((turn - std::floor(turn)) * width_), width_ - 1);
-  const int y = std::min(static_cast<int>(down * height_), height_ - 1);
-  return static_cast<std::size_t>(y) * width_ + x;
+  const int x = std::min(static_cast<int>((turn - std::floor(turn)) * width), width - 1);
+  const int y = std::min(static_cast<int>(down * height), height - 1);
+  return static_cast<std::size_t>(y) * width + x;
 }
 
 Real EnvironmentImage::pdf_of(std::size_t texel) const noexcept {
-  const double total = powers_.back();
-  return total > 0 ? static_cast<Real>(luminance(Rgb(texels_[texel])) / total) : Real(0);
+  if (is_black()) return 0;
+  return static_cast<Real>(luminance(Rgb(picture_->texels[texel])) / picture_->powers.back());
 }
 
 Rgb EnvironmentImage::radiance(const Vec3& direction) const noexcept {
-  return Rgb(texels_[texel_of(direction)]);
+  return scale_ * Rgb(picture_->texels[texel_of(direction)]);
 }
 
 EnvironmentImage::Sample EnvironmentImage::sample(const Vec2& u) const noexcept {
-  if (!(powers_.back() > 0)) return {Vec3(0, 1, 0), Rgb(0), 0};
-  const Pick row = pick(powers_.data(), height_, u.y);
-  const double* sums = luminances_.data() + static_cast<std::size_t>(row.index) * (width_ + 1);
-  const Pick column = pick(sums, width_, u.x);
-  const double azimuth = kTurn * ((column.index + column.fraction) / width_ - 0.5 - turn_);
-  const Height height = height_at(row.index, height_, row.fraction);
+  if (is_black()) return {Vec3(0, 1, 0), Rgb(0), 0};
+  const Picture& p = *picture_;
+  const Pick row = pick(p.powers.data(), p.height, u.y);
+  const double* sums = p.luminances.data() + static_cast<std::size_t>(row.index) * (p.width + 1);
+  const Pick column = pick(sums, p.width, u.x);
+  const double azimuth = kTurn * ((column.index + column.fraction) / p.width - 0.5 - turn_);
+  const Height height = height_at(row.index, p.height, row.fraction);
   const Vec3 direction(height.sin_theta * std::sin(azimuth), height.cos_theta,
                        -height.sin_theta * std::cos(azimuth));
-  const std::size_t texel = static_cast<std::size_t>(row.index) * width_ + column.index;
-  return {direction, Rgb(texels_[texel]), pdf_of(texel)};
+  const std::size_t texel = static_cast<std::size_t>(row.index) * p.width + column.index;
+  return {direction, scale_ * Rgb(p.texels[texel]), pdf_of(texel)};
 }
 
 Real EnvironmentImage::pdf(const Vec3& direction) const noexcept { return pdf_of(texel_of(direction)); }

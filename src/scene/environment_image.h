@@ -2,6 +2,7 @@
 // what it shines.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "math/image.h"
@@ -18,6 +19,10 @@ class EnvironmentImage {
   /// the surround by R_y(rotation): at +90, what was seen along -z is seen along -x. Error (input) with the
   /// place of the first texel that is not finite, negative, or more than 1e30 when scaled.
   explicit EnvironmentImage(const Image& image, double rotation = 0, double scale = 1);
+
+  /// The same picture under another rotation and scale, which take the place of the ones it had; the texels
+  /// are shared. Errors as above.
+  EnvironmentImage(const EnvironmentImage& picture, double rotation, double scale);
 
   /// What arrives from a unit direction, looking outward.
   [[nodiscard]] Rgb radiance(const Vec3& direction) const noexcept;
@@ -37,15 +42,24 @@ class EnvironmentImage {
   [[nodiscard]] Real pdf(const Vec3& direction) const noexcept;
 
  private:
+  // What the file holds, unscaled.
+  struct Picture {
+    int width;
+    int height;
+    float brightest = 0;             // of all channels
+    std::vector<glm::vec3> texels;   // row by row
+    std::vector<double> luminances;  // running sums within each row, width + 1 a row
+    std::vector<double> powers;      // running sums over the rows of luminance times solid angle, height + 1
+  };
+
+  [[nodiscard]] static std::shared_ptr<const Picture> read_picture(const Image& image, double scale);
   [[nodiscard]] std::size_t texel_of(const Vec3& direction) const noexcept;
   [[nodiscard]] Real pdf_of(std::size_t texel) const noexcept;
+  [[nodiscard]] bool is_black() const noexcept { return !(picture_->powers.back() > 0 && scale_ > 0); }
 
-  int width_;
-  int height_;
-  double turn_;                     // the rotation, in whole turns
-  std::vector<glm::vec3> texels_;   // row by row
-  std::vector<double> luminances_;  // running sums within each row, width + 1 a row
-  std::vector<double> powers_;      // running sums over the rows of luminance times solid angle, height + 1
+  std::shared_ptr<const Picture> picture_;
+  double turn_;  // the rotation, in whole turns
+  Real scale_;
 };
 
 }  // namespace meander

@@ -122,8 +122,10 @@ struct Object {
   Transform transform;
 };
 
+/// Lengths are in scene units, of `millimetres_per_unit` (> 0) millimetres each.
 struct Scene {
   std::string name;
+  double millimetres_per_unit = 1;
   Camera camera;
   FilmSize film;
   Display display;

@@ -55,6 +55,8 @@ TEST_CASE("a whole scene arrives as written, defaults where it is silent") {
   REQUIRE(scene.lights.size() == 2);
   CHECK(scene.lights[1].name == "light2");
   CHECK(std::get<RectangleLight>(scene.lights[0].shape).radiance == Rgb(5));
+  CHECK(scene.millimetres_per_unit == 10);
+  CHECK(load(kWax + "albedo = 0.9\nmean_free_path = 1").millimetres_per_unit == 1);
   // Per millimetre, at ten millimetres a unit.
   CHECK(medium_of(scene).sigma_t.x == doctest::Approx(20));
   CHECK(medium_of(scene).albedo.z == doctest::Approx(0.75));
