@@ -1,0 +1,55 @@
+#include "app/script_player.h"
+
+#include "core/error.h"
+
+namespace meander {
+
+auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, double now) -> Outcome {
+  if (const auto* set = std::get_if<SetStep>(&step)) {
+    stage.apply(set->edit);
+    return Outcome::taken;
+  }
+  if (const auto* event = std::get_if<EventStep>(&step)) {
+    stage.feed(event->event);
+    return Outcome::taken_frame;
+  }
+  if (const auto* spp = std::get_if<WaitSppStep>(&step))
+    return stage.spp() >= spp->spp ? Outcome::taken : Outcome::waiting;
+  if (const auto* wait = std::get_if<WaitStep>(&step)) {
+    if (!wait_until_) wait_until_ = now + wait->seconds;
+    if (now < *wait_until_) return Outcome::waiting;
+    wait_until_.reset();
+    return Outcome::taken;
+  }
+  if (const auto* snapshot = std::get_if<SnapshotStep>(&step)) {
+    if (frames_ < kSettle) return Outcome::waiting;
+    stage.write_snapshot(snapshot->path);
+    return Outcome::taken;
+  }
+  if (const auto* size = std::get_if<SizeStep>(&step)) {
+    stage.resize(size->width, size->height);
+    return Outcome::taken_frame;
+  }
+  stage.quit();
+  return Outcome::taken_frame;
+}
+
+void ScriptPlayer::play(const ScriptStage& stage, double now) {
+  ++frames_;
+  while (!done()) {
+    const ScriptLine& line = script_[next_];
+    Outcome outcome = Outcome::waiting;
+    try {
+      outcome = play_step(line.step, stage, now);
+    } catch (const Error& error) {
+      if (error.exit_code() != static_cast<int>(Fault::input)) throw;
+      throw Error(Place{file_, line.line, 0}, error.what());
+    }
+    if (outcome == Outcome::waiting) return;
+    ++next_;
+    if (!std::holds_alternative<WaitSppStep>(line.step)) frames_ = 0;
+    if (outcome == Outcome::taken_frame) return;
+  }
+}
+
+}  // namespace meander

@@ -1,0 +1,48 @@
+// Plays a script, a few steps a frame.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/script.h"
+
+namespace meander {
+
+/// What a script acts on, in the window and off-screen alike.
+struct ScriptStage {
+  std::function<void(const std::string&)> apply;  // an edit; throws Error
+  std::function<void(const InputEvent&)> feed;    // an event of keyboard or mouse
+  std::function<std::uint64_t()> spp;  // samples a pixel of the picture that all edits so far ask for
+  std::function<void(const std::string&)> write_snapshot;  // the frame last drawn, to a PNG
+  std::function<void(int, int)> resize;
+  std::function<void()> quit;
+};
+
+class ScriptPlayer {
+ public:
+  /// `file` is what messages call the script.
+  ScriptPlayer(std::vector<ScriptLine> script, std::string file)
+      : script_(std::move(script)), file_(std::move(file)) {}
+
+  /// Plays what this frame may take: any number of edits, but one event, so that the interface sees each; a
+  /// snapshot waits for kSettle frames without another step, so that it shows what went before. `now` in
+  /// seconds. Error (input) with the script's line when an edit is refused.
+  void play(const ScriptStage& stage, double now);
+  [[nodiscard]] bool done() const noexcept { return next_ == script_.size(); }
+
+ private:
+  static constexpr int kSettle = 3;
+  enum class Outcome { taken, taken_frame, waiting };
+
+  [[nodiscard]] Outcome play_step(const ScriptStep& step, const ScriptStage& stage, double now);
+
+  std::vector<ScriptLine> script_;
+  std::string file_;
+  std::size_t next_ = 0;
+  int frames_ = 0;  // since the last step
+  std::optional<double> wait_until_;
+};
+
+}  // namespace meander
