@@ -83,14 +83,15 @@ DVec3 member(TomlTable& table, std::string_view key, const Range& range, const s
   return table.required(value ? value : preset, key);
 }
 
-void read_color(TomlTable& table, const std::optional<Coefficients>& base, MediumKeys& keys) {
+void read_color(TomlTable& table, const std::optional<Coefficients>& base, MediumKeys& keys,
+                ColorMaps& maps) {
   keys.radius_scale = table.triple("radius_scale", kPositive, true).value_or(DVec3(1));
   keys.inversion = static_cast<Inversion>(table.choice("inversion", kInversions).value_or(0));
   std::optional<DVec3> color;
   std::optional<DVec3> radius;
   if (base) {
     radius = 1.0 / sigma_t_of(*base);
-    if (!table.has("color")) color = color_of(albedo_of(*base), base->g, keys.surface);
+    if (!table.has("color")) color = color_of(albedo_of(*base), maps.of(base->g, keys.surface));
   }
   keys.color = member(table, "color", kUnitInterval, color);
   keys.radius = member(table, "radius", kNotNegative, radius);
@@ -109,9 +110,18 @@ std::optional<Coefficients> base_of(const Preset* preset, double g, double milli
   return base;
 }
 
+// As coefficients_from_color, for the inversion and the surface of `keys`.
+Coefficients invert_color(const DVec3& color, double g, const MediumKeys& keys, ColorMaps& maps) {
+  const DVec3 radius = keys.radius * keys.radius_scale;
+  if (keys.inversion == Inversion::exact)
+    return coefficients_from_color(color, radius, maps.of(g, keys.surface));
+  return coefficients_from_color(color, radius, g, keys.inversion);
+}
+
 // The coefficients of the parametrisation in `keys`, over those of the preset.
 Coefficients read_coefficients(TomlTable& table, const std::optional<Coefficients>& base, double g,
-                               double millimetres_per_unit, MediumKeys& keys) {
+                               const MediumTools& tools, MediumKeys& keys) {
+  const double millimetres_per_unit = tools.millimetres_per_unit;
   if (!keys.given) return *base;
   std::optional<DVec3> first;
   std::optional<DVec3> second;
@@ -132,14 +142,9 @@ Coefficients read_coefficients(TomlTable& table, const std::optional<Coefficient
     case Parametrisation::color:
       break;
   }
-  read_color(table, base, keys);
+  read_color(table, base, keys, tools.color_maps);
   if (keys.lambertian) return {{}, {}, g};
-  return coefficients_from_color(keys.color, keys.radius * keys.radius_scale, g, keys.inversion,
-                                 keys.surface);
-}
-
-void set_triple(toml::table& table, std::string_view key, const DVec3& value) {
-  table.insert_or_assign(key, toml::array{value.x, value.y, value.z});
+  return invert_color(keys.color, g, keys, tools.color_maps);
 }
 
 void set_sigma(toml::table& table, const Coefficients& coefficients, double millimetres_per_unit) {
@@ -148,16 +153,15 @@ void set_sigma(toml::table& table, const Coefficients& coefficients, double mill
 }
 
 // What hold_for_g does where the material is given by colour; every inversion has sigma_t as 1 / radius.
-void hold_color(toml::table& table, const MediumKeys& keys, double g) {
+void hold_color(toml::table& table, const MediumKeys& keys, double g, ColorMaps& maps) {
   if (keys.lambertian) return;
   const bool similar = keys.g_lock == GLock::sigma_s_reduced;
   DVec3 color = keys.color;
   if (similar && keys.inversion == Inversion::exact) {
-    const Coefficients held = with_g(keys.coefficients, g, keys.g_lock, keys.surface);
-    color = color_of(albedo_of(held), g, keys.surface);
+    const Coefficients held = with_g(keys.coefficients, g, keys.g_lock, keys.surface, maps);
+    color = color_of(albedo_of(held), maps.of(g, keys.surface));
   }
-  const Coefficients now =
-      coefficients_from_color(color, keys.radius * keys.radius_scale, g, keys.inversion, keys.surface);
+  const Coefficients now = invert_color(color, g, keys, maps);
   const bool full = keys.g_lock == GLock::sigma_t;
   const DVec3 got = sigma_t_of(full ? now : reduced(now));
   const DVec3 wanted = sigma_t_of(full ? keys.coefficients : reduced(keys.coefficients));
@@ -173,9 +177,10 @@ std::optional<Parametrisation> parametrisation_of(std::string_view key) {
   return std::nullopt;
 }
 
-MediumKeys read_medium(TomlTable& table, double millimetres_per_unit) {
+MediumKeys read_medium(TomlTable& table, const MediumTools& tools) {
   MediumKeys keys;
   const Preset* preset = read_preset(table);
+  if (preset) keys.preset = preset->name;
   const double g = table.number("g", kMeanCosine).value_or(preset ? mean_g(*preset) : 0);
   keys.g_lock = static_cast<GLock>(table.choice("g_lock", kLocks).value_or(0));
   keys.given = find_parametrisation(table);
@@ -184,24 +189,24 @@ MediumKeys read_medium(TomlTable& table, double millimetres_per_unit) {
                                    " needs color + radius, or albedo + mean_free_path, or sigma_s + "
                                    "sigma_a, or a preset");
   read_surface(table, preset, keys);
-  const auto base = base_of(preset, g, millimetres_per_unit);
-  keys.coefficients = read_coefficients(table, base, g, millimetres_per_unit, keys);
+  const auto base = base_of(preset, g, tools.millimetres_per_unit);
+  keys.coefficients = read_coefficients(table, base, g, tools, keys);
   return keys;
 }
 
 void convert_material(toml::table& table, Parametrisation target, const std::string& file,
-                      double millimetres_per_unit) {
+                      const MediumTools& tools) {
   TomlTable reader(table, file, "[[material]]");
   if (reader.choice("type", kTypes).value_or(0) != 0) return;
   const auto given = find_parametrisation(reader);
   if (given == target || (!given && reader.has("preset"))) return;
-  const MediumKeys keys = read_medium(reader, millimetres_per_unit);
+  const MediumKeys keys = read_medium(reader, tools);
   if (keys.lambertian)
     throw Error(reader.place("radius"),
                 "a radius of 0 is plain diffuse and has no albedo: set a radius greater than 0 first");
   for (const Member& member : kMembers) table.erase(member.key);
   if (target == Parametrisation::sigma) {
-    set_sigma(table, keys.coefficients, millimetres_per_unit);
+    set_sigma(table, keys.coefficients, tools.millimetres_per_unit);
     return;
   }
   const DVec3 sigma_t = sigma_t_of(keys.coefficients);
@@ -213,26 +218,26 @@ void convert_material(toml::table& table, Parametrisation target, const std::str
     set_triple(table, "albedo", albedo);
     set_triple(table, "mean_free_path", 1.0 / sigma_t);
   } else {
-    set_triple(table, "color", color_of(albedo, keys.coefficients.g, keys.surface));
+    set_triple(table, "color", color_of(albedo, tools.color_maps.of(keys.coefficients.g, keys.surface)));
     set_triple(table, "radius", 1.0 / sigma_t);
   }
 }
 
-void hold_for_g(toml::table& table, double g, const std::string& file, double millimetres_per_unit) {
+void hold_for_g(toml::table& table, double g, const std::string& file, const MediumTools& tools) {
   TomlTable reader(table, file, "[[material]]");
   if (reader.choice("type", kTypes).value_or(0) != 0 || !kMeanCosine.contains(g)) return;
-  const MediumKeys keys = read_medium(reader, millimetres_per_unit);
+  const MediumKeys keys = read_medium(reader, tools);
   if (g == keys.coefficients.g) return;
   if (keys.given == Parametrisation::color) {
-    hold_color(table, keys, g);
+    hold_color(table, keys, g, tools.color_maps);
     return;
   }
-  const Coefficients held = with_g(keys.coefficients, g, keys.g_lock, keys.surface);
+  const Coefficients held = with_g(keys.coefficients, g, keys.g_lock, keys.surface, tools.color_maps);
   if (keys.given == Parametrisation::albedo) {
     set_triple(table, "albedo", albedo_of(held));
     set_triple(table, "mean_free_path", 1.0 / sigma_t_of(held));
   } else {
-    set_sigma(table, held, millimetres_per_unit);
+    set_sigma(table, held, tools.millimetres_per_unit);
   }
 }
 

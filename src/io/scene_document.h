@@ -74,8 +74,7 @@ class SceneDocument {
 
  private:
   SceneDocument(std::shared_ptr<const DocumentState> state, std::shared_ptr<SceneCache> cache);
-  template <class Edit>
-  void change(const Edit& edit);
+  void adopt(DocumentState&& state);  // once it reads
 
   std::shared_ptr<const DocumentState> state_;
   std::shared_ptr<SceneCache> cache_;

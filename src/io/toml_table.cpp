@@ -1,5 +1,7 @@
 #include "io/toml_table.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -38,6 +40,25 @@ std::string number_text(double value) {
 
 }  // namespace
 
+double number_of(const toml::node& node) {
+  if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
+  return node.value_or(0.0);
+}
+
+void set_triple(toml::table& table, std::string_view key, const DVec3& value) {
+  table.insert_or_assign(key, toml::array{value.x, value.y, value.z});
+}
+
+void set_color(toml::table& table, std::string_view key, const Rgb& value) {
+  DVec3 decimal;
+  for (int c = 0; c < 3; ++c) {
+    std::array<char, 64> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value[c]).ptr;
+    std::from_chars(digits.data(), end, decimal[c]);
+  }
+  set_triple(table, key, decimal);
+}
+
 Place place_of(const toml::node& node, const std::string& file) {
   const toml::source_region& source = node.source();
   if (source.path && source.path->starts_with("--set ")) return {*source.path, 0, 0};
@@ -61,7 +82,7 @@ void TomlTable::wrong_type(const toml::node& node, std::string_view key, std::st
 
 double TomlTable::checked(const toml::node& node, std::string_view key, const Range& range) const {
   if (!node.is_number()) wrong_type(node, key, "a number");
-  const double value = *node.value<double>();
+  const double value = number_of(node);
   if (range.contains(value)) return value;
   std::string wanted(range.text);
   if (std::abs(value) > kLargest && range.high == kLargest) wanted += " and at most 1e30 in size";

@@ -34,6 +34,13 @@ inline constexpr Range kPositive{0, kLargest, true, false, "greater than 0"};
 inline constexpr Range kNotNegative{0, kLargest, false, false, "0 or more"};
 inline constexpr Range kUnitInterval{0, 1, false, false, "in [0, 1]"};
 
+/// The value of a node that is a number: a whole number counts as the nearest double.
+[[nodiscard]] double number_of(const toml::node& node);
+
+/// Sets a key to a list of three numbers. A colour is written in the fewest digits that it is known by.
+void set_triple(toml::table& table, std::string_view key, const DVec3& value);
+void set_color(toml::table& table, std::string_view key, const Rgb& value);
+
 /// Where a node stands; a value given on the command line has its option as the file and no line.
 [[nodiscard]] Place place_of(const toml::node& node, const std::string& file);
 

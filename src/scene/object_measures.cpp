@@ -84,6 +84,22 @@ Bounds world_bounds(const Object& object) {
   return {at - half, at + half};
 }
 
+double bounding_radius(const Object& object) {
+  const DVec3& scale = object.transform.scale;
+  if (std::holds_alternative<SphereShape>(object.shape)) return std::max({scale.x, scale.y, scale.z});
+  const auto* mesh = std::get_if<MeshPointer>(&object.shape);
+  if (!mesh) return glm::length(scale);
+  const DMat3 linear = linear_part(object.transform);
+  const Bounds bounds = mesh_bounds(**mesh, linear);
+  const DVec3 center = 0.5 * (bounds.low + bounds.high);
+  double squared = 0;
+  for (const DVec3& position : (*mesh)->positions) {
+    const DVec3 d = linear * position - center;
+    squared = std::max(squared, glm::dot(d, d));
+  }
+  return std::sqrt(squared);
+}
+
 Bounds subject_bounds(const Scene& scene) {
   const auto translucent = [&](const Object& object) {
     return std::holds_alternative<TranslucentMaterial>(scene.materials[object.material].kind);

@@ -9,6 +9,10 @@ namespace meander {
 /// its own x and z.
 [[nodiscard]] Bounds world_bounds(const Object& object);
 
+/// The largest distance of the object's surface from the centre of its world bounds; for a slab, of the same
+/// piece.
+[[nodiscard]] double bounding_radius(const Object& object);
+
 /// Of the translucent objects together; of all when none is; [-1, 1]^3 without objects. Slabs count only
 /// where there is nothing else.
 [[nodiscard]] Bounds subject_bounds(const Scene& scene);

@@ -33,6 +33,7 @@ struct FilmSize {
 
 struct Display {
   double exposure = 0;  // stops
+  bool filmic = false;  // the tone curve; plain sRGB without
 };
 
 /// The same radiance from every direction, or an image in its place; `visible` false hides it from camera

@@ -114,9 +114,9 @@ TEST_CASE("keys that contradict each other are refused") {
   CHECK(folder.error_of("image = \"a.exr\"\nradiance = 1\n") ==
         "scene.toml:3:12: an environment has radiance or image, not both");
   CHECK(folder.error_of("radiance = 1\nrotation = 3\n") ==
-        "scene.toml:3:12: 'rotation' belongs to an image; [environment] has none");
+        "scene.toml:3:12: 'rotation' belongs to an image or a sky; [environment] has none");
   CHECK(folder.error_of("scale = 3\n") ==
-        "scene.toml:2:9: 'scale' belongs to an image; [environment] has none");
+        "scene.toml:2:9: 'scale' belongs to an image or a sky; [environment] has none");
   CHECK(folder.error_of("image = \"a.exr\"\nscale = -1\n") ==
         "scene.toml:3:9: 'scale' is -1, but must be 0 or more");
   CHECK(folder.error_of("image = 3\n") == "scene.toml:2:9: 'image' must be text in quotes, not a number");

@@ -1,0 +1,105 @@
+// What reading a scene needs from elsewhere and can be kept for the next time: mesh files, pictures, built-in
+// shapes and surrounds, colour maps.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/mesh_file.h"
+#include "medium/color_maps.h"
+#include "scene/environment_image.h"
+#include "scene/sky.h"
+
+namespace meander {
+
+/// A mesh as its file has it, and what the scene reader asks of it.
+struct CachedMesh {
+  std::shared_ptr<const Mesh> mesh;
+  MeshReport report;
+  double size = 0;    // the diagonal of its bounds
+  double volume = 0;  // enclosed
+};
+
+/// A file at one time: another time or size means that it changed.
+struct FileStamp {
+  std::string path;
+  std::filesystem::file_time_type time;
+  std::uintmax_t bytes = 0;
+
+  bool operator==(const FileStamp&) const = default;
+};
+
+/// Values by key, the ones used last at the end.
+template <class Key, class Value>
+class RecentValues {
+ public:
+  /// Null when there is none; the value counts as used.
+  [[nodiscard]] Value* find(const Key& key) {
+    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+      if (!(entry->first == key)) continue;
+      std::pair<Key, Value> used = std::move(*entry);
+      entries_.erase(entry);
+      entries_.push_back(std::move(used));
+      return &entries_.back().second;
+    }
+    return nullptr;
+  }
+  Value& add(const Key& key, Value value) {
+    entries_.emplace_back(key, std::move(value));
+    return entries_.back().second;
+  }
+  /// Forgets all but the `count` that were used last.
+  void trim(std::size_t count) {
+    if (entries_.size() > count) entries_.erase(entries_.begin(), entries_.end() - count);
+  }
+
+ private:
+  std::vector<std::pair<Key, Value>> entries_;
+};
+
+/// The same object for the same file until the file changes, for the same shape always. Any thread may ask.
+class SceneCache {
+ public:
+  /// As load_mesh.
+  [[nodiscard]] std::shared_ptr<const CachedMesh> mesh(const std::string& path, bool z_up);
+  [[nodiscard]] std::shared_ptr<const Mesh> torus_knot();
+  /// As load_environment.
+  [[nodiscard]] std::shared_ptr<const EnvironmentImage> picture(const std::string& path, double rotation,
+                                                                double scale);
+  [[nodiscard]] std::shared_ptr<const EnvironmentImage> sky(Sky sky, double rotation, double scale);
+  [[nodiscard]] ColorMaps& color_maps() noexcept { return color_maps_; }
+
+  /// Called after a scene with this many meshes was read: forgets files that have long not been used.
+  void trim(std::size_t meshes);
+
+ private:
+  struct MeshKey {
+    FileStamp file;
+    bool z_up = false;
+    bool operator==(const MeshKey&) const = default;
+  };
+  // A surround, and how it was turned and scaled last.
+  struct Surround {
+    double rotation;
+    double scale;
+    std::shared_ptr<const EnvironmentImage> image;
+  };
+  using Surrounds = RecentValues<FileStamp, Surround>;
+
+  [[nodiscard]] static std::shared_ptr<const EnvironmentImage> turned(Surround& surround, double rotation,
+                                                                      double scale);
+
+  std::mutex mutex_;
+  RecentValues<MeshKey, std::shared_ptr<const CachedMesh>> meshes_;
+  std::shared_ptr<const Mesh> torus_knot_;
+  Surrounds pictures_;
+  Surrounds skies_;
+  ColorMaps color_maps_;
+};
+
+}  // namespace meander
