@@ -18,7 +18,8 @@ PlaneSet planes_of(View view) {
 
 }  // namespace
 
-FilmTextures::FilmTextures(const Functions& gl) : planes_{Texture(gl), Texture(gl), Texture(gl)} {}
+FilmTextures::FilmTextures(const Functions& gl)
+    : planes_{Texture(gl), Texture(gl), Texture(gl)}, content_{std::make_shared<const char>(), 0} {}
 
 void FilmTextures::begin(int width, int height, std::uint64_t version) {
   assert(width > 0 && height > 0);
@@ -41,6 +42,7 @@ void FilmTextures::show(const FilmPlanes& planes, std::uint64_t version, View vi
     assert(image.width == width_ && image.height == height_ && image.channels == 4);
     planes_[i].upload(image.width, image.height, image.channels, image.values.data());
     there_[i] = true;
+    ++content_.uploads;
   }
 }
 
@@ -59,6 +61,7 @@ void FilmTextures::show(const Image& linear, std::uint64_t version) {
     planes_[0].upload(linear.width, linear.height, 3, rgb.data());
   }
   there_[0] = true;
+  ++content_.uploads;
 }
 
 bool FilmTextures::has(View view) const noexcept {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "display/views.h"
 #include "film/film_planes.h"
@@ -30,6 +31,15 @@ class FilmTextures {
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }
 
+  /// What is in the textures: equal only for the same textures with nothing uploaded in between.
+  struct Content {
+    std::shared_ptr<const char> textures;  // whoever holds it keeps others from being taken for them
+    std::uint64_t uploads = 0;
+
+    bool operator==(const Content&) const = default;
+  };
+  [[nodiscard]] const Content& content() const noexcept { return content_; }
+
   /// Makes plane `plane` (0 radiance, 1 error, 2 features) the texture of sampler `unit`.
   void bind(int plane, int unit) const;
 
@@ -38,6 +48,7 @@ class FilmTextures {
 
   std::array<Texture, 3> planes_;
   std::array<bool, 3> there_{};
+  Content content_;
   bool has_samples_ = false;
   std::uint64_t version_ = 0;
   int width_ = 0;

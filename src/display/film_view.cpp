@@ -121,6 +121,7 @@ void FilmView::reload() {
   }
   for (const auto& [variant, old] : shaders_.programs) (void)program(*gl_, fresh, variant);
   shaders_ = std::move(fresh);
+  shown_.reset();
 }
 
 const Program& FilmView::begin(const FilmTextures& film, const Variant& variant, const Stage& stage) {
@@ -156,7 +157,7 @@ void FilmView::fill(const Program& shader, const ViewOptions& options, const Sta
   expect_no_error(gl, "drawing the film");
 }
 
-void FilmView::draw(const FilmTextures& film, const ViewOptions& options, const Stage& stage) {
+void FilmView::draw_film(const FilmTextures& film, const ViewOptions& options, const Stage& stage) {
   assert(!film.empty() && std::isfinite(options.exposure) && stage.film.width > 0 && stage.film.height > 0);
   const View view = film.has(options.view) ? options.view : View::image;
   const Variant variant{.view = static_cast<int>(view),
@@ -178,20 +179,47 @@ void FilmView::draw_difference(const FilmTextures& a, const FilmTextures& b, con
   fill(shader, options, stage);
 }
 
-void FilmView::draw_compared(const FilmTextures& a, const FilmTextures& b, const Compared& how,
-                             const ViewOptions& options, const Stage& stage) {
+void FilmView::draw_anew(const FilmTextures& a, const FilmTextures& b, const Compared& how,
+                         const ViewOptions& options, const Stage& stage) {
   const int line = static_cast<int>(std::round(std::clamp(how.line, 0.0f, static_cast<float>(stage.width))));
   switch (how.kind) {
     case Comparison::none:
-      return draw(a, options, stage);
+      return draw_film(a, options, stage);
     case Comparison::only_b:
-      return draw(b, options, stage);
+      return draw_film(b, options, stage);
     case Comparison::wipe:
-      draw(a, options, clipped(stage, {0, 0, line, stage.height}));
-      return draw(b, options, clipped(stage, {line, 0, stage.width - line, stage.height}));
+      draw_film(a, options, clipped(stage, {0, 0, line, stage.height}));
+      return draw_film(b, options, clipped(stage, {line, 0, stage.width - line, stage.height}));
     case Comparison::difference:
       return draw_difference(a, b, options, stage);
   }
+}
+
+void FilmView::draw(const FilmTextures& film, const ViewOptions& options, const Stage& stage) {
+  draw_compared(film, film, {}, options, stage);
+}
+
+void FilmView::draw_compared(const FilmTextures& a, const FilmTextures& b, const Compared& how,
+                             const ViewOptions& options, const Stage& stage) {
+  const Region seen = visible(stage);
+  if (seen.width <= 0 || seen.height <= 0) return;
+  const auto target = static_cast<GLuint>(integer(*gl_, GL_DRAW_FRAMEBUFFER_BINDING));
+  Shown wanted{a.content(), b.content(), how, options, stage};
+  if (!picture_ || picture_->width() < stage.width || picture_->height() < stage.height) {
+    shown_.reset();
+    picture_.reset();
+    picture_.emplace(*gl_, stage.width, stage.height);
+  }
+  if (shown_ != wanted) {
+    shown_.reset();
+    picture_->bind(stage.width, stage.height);
+    draw_anew(a, b, how, options, stage);
+    shown_ = std::move(wanted);
+  }
+  reset_state(*gl_);
+  picture_->copy_to(target, {seen.x, stage.height - seen.y - seen.height, seen.width, seen.height});
+  gl_->viewport(0, 0, stage.width, stage.height);
+  expect_no_error(*gl_, "drawing the film");
 }
 
 }  // namespace meander

@@ -7,6 +7,7 @@
 
 #include "display/film_textures.h"
 #include "display/views.h"
+#include "gl/framebuffer.h"
 #include "gl/picture.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
@@ -19,6 +20,8 @@ struct Region {
   int y = 0;
   int width = 0;
   int height = 0;
+
+  bool operator==(const Region&) const = default;
 };
 
 /// The rectangle that the whole picture takes in the framebuffer: pixels, y down from the top. It may reach
@@ -28,6 +31,8 @@ struct FilmPlacement {
   float y = 0;
   float width = 0;
   float height = 0;
+
+  bool operator==(const FilmPlacement&) const = default;
 };
 
 /// The largest centred placement of a `width` x `height` picture in a region: whole pixels for each film
@@ -40,11 +45,15 @@ struct Stage {
   int width = 0;
   int height = 0;
   std::optional<Region> clip;
+
+  bool operator==(const Stage&) const = default;
 };
 
 struct Compared {
   Comparison kind = Comparison::none;
   float line = 0;  // of the wipe: framebuffer pixels from the left
+
+  bool operator==(const Compared&) const = default;
 };
 
 class FilmView {
@@ -57,7 +66,8 @@ class FilmView {
   /// multiplied by 2^exposure, go through the tone curve, are clamped to [0, 1], sRGB-encoded (IEC 61966-2-1)
   /// and rounded to 8 bits; NaN shows as 0, +infinity as 1. A view whose planes are not there is drawn as the
   /// image. Where a film pixel covers n x n whole pixels it has one colour; else values are interpolated, or
-  /// averaged over each pixel where the film is shrunk, before the tone curve.
+  /// averaged over each pixel where the film is shrunk, before the tone curve. Drawing again what was drawn
+  /// last is a mere copy.
   void draw(const FilmTextures& film, const ViewOptions& options, const Stage& stage);
 
   /// The same for two films, of any sizes, stretched over the same rectangle.
@@ -88,13 +98,29 @@ class FilmView {
   [[nodiscard]] static const Program& program(const Functions& gl, Shaders& shaders, const Variant& variant);
   const Program& begin(const FilmTextures& film, const Variant& variant, const Stage& stage);
   void fill(const Program& shader, const ViewOptions& options, const Stage& stage) const;
+  void draw_film(const FilmTextures& film, const ViewOptions& options, const Stage& stage);
   void draw_difference(const FilmTextures& a, const FilmTextures& b, const ViewOptions& options,
                        const Stage& stage);
+  void draw_anew(const FilmTextures& a, const FilmTextures& b, const Compared& how,
+                 const ViewOptions& options, const Stage& stage);
+
+  // What the picture shows.
+  struct Shown {
+    FilmTextures::Content a;
+    FilmTextures::Content b;
+    Compared how;
+    ViewOptions options;
+    Stage stage;
+
+    bool operator==(const Shown&) const = default;
+  };
 
   const Functions* gl_;
   Shaders shaders_;
   Picture colors_;
   VertexArray triangle_;
+  std::optional<Framebuffer> picture_;
+  std::optional<Shown> shown_;
 };
 
 }  // namespace meander

@@ -46,6 +46,8 @@ struct ViewOptions {
   float low = 0;  // range of the colour scale, 0 < low < high; both 0: default_range of the view
   float high = 0;
   bool smooth = false;  // interpolate where one film pixel covers several pixels, as a coarse level wants
+
+  bool operator==(const ViewOptions&) const = default;
 };
 
 /// wipe: one film left of a line, the other right of it. difference: |a - b| of the radiance, through
