@@ -99,7 +99,7 @@ float encode_srgb(float x) {
 float tone_curve(float x) {
 #if TONE == 1
   if (x <= 0.0) return x;
-  float y = min(x, 1e6) * 0.7231535;
+  float y = min(x, 1e6) * 0.72317080;
   return y * (2.51 * y + 0.03) / (y * (2.43 * y + 0.59) + 0.14);
 #else
   return x;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstddef>
 
+#include "gl/extent.h"
 #include "gl/framebuffer.h"
 #include "gl/offscreen.h"
 
@@ -32,12 +33,12 @@ void paste(const Image8& tile, int x, int y, Image8& frame) {
 
 // `show` puts a region of the picture into the textures; the version tells one tile from another.
 template <typename Show>
-Image8 capture(int width, int height, const ViewOptions& options, Show show) {
+Image8 drawn(const Functions& gl, const Extent& size, const ViewOptions& options, Show show) {
+  const auto [width, height] = size;
   assert(width > 0 && height > 0);
-  const Offscreen context(1, 1);
-  FilmView view(context.functions());
-  FilmTextures textures(context.functions());
-  const Framebuffer target(context.functions(), std::min(width, kTile), std::min(height, kTile));
+  FilmView view(gl);
+  FilmTextures textures(gl);
+  const Framebuffer target(gl, std::min(width, kTile), std::min(height, kTile));
   Image8 frame(width, height);
   std::uint64_t version = 0;
   for (int y = 0; y < height; y += kTile) {
@@ -55,20 +56,26 @@ Image8 capture(int width, int height, const ViewOptions& options, Show show) {
 
 }  // namespace
 
-Image8 capture_frame(const FilmPlanes& planes, const ViewOptions& options) {
+Image8 draw_frame(const Functions& gl, const FilmPlanes& planes, const ViewOptions& options) {
   const auto show = [&](FilmTextures& textures, const Region& region, std::uint64_t version) {
     const FilmPlanes part{cropped(planes.radiance, region, 4), cropped(planes.error, region, 4),
                           cropped(planes.features, region, 4)};
     textures.show(part, version, options.view);
   };
-  return capture(planes.radiance.width, planes.radiance.height, options, show);
+  return drawn(gl, {planes.radiance.width, planes.radiance.height}, options, show);
+}
+
+Image8 capture_frame(const FilmPlanes& planes, const ViewOptions& options) {
+  const Offscreen context(1, 1);
+  return draw_frame(context.functions(), planes, options);
 }
 
 Image8 capture_frame(const Image& linear, const ViewOptions& options) {
+  const Offscreen context(1, 1);
   const auto show = [&](FilmTextures& textures, const Region& region, std::uint64_t version) {
     textures.show(cropped(linear, region, 3), version);
   };
-  return capture(linear.width, linear.height, options, show);
+  return drawn(context.functions(), {linear.width, linear.height}, options, show);
 }
 
 }  // namespace meander

@@ -12,7 +12,11 @@ namespace meander {
 /// bytes. Error (runtime) when there is no such context or no shader.
 [[nodiscard]] Image8 capture_frame(const FilmPlanes& planes, const ViewOptions& options);
 
-/// The same of channels 0..2 of an image, which has the views image, luminance and clipping.
+/// The same in the context that is current, whose functions are `gl`. With a window open this is the one to
+/// call: the others would take its context away from the thread.
+[[nodiscard]] Image8 draw_frame(const Functions& gl, const FilmPlanes& planes, const ViewOptions& options);
+
+/// capture_frame of channels 0..2 of an image, which has the views image, luminance and clipping.
 [[nodiscard]] Image8 capture_frame(const Image& linear, const ViewOptions& options);
 
 }  // namespace meander
