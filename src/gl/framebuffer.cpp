@@ -44,6 +44,16 @@ void Framebuffer::bind(int width, int height) const {
   color_.gl().viewport(0, 0, width, height);
 }
 
+void Framebuffer::copy_to(GLuint to, const std::array<int, 4>& x_y_width_height) const {
+  const Functions& gl = color_.gl();
+  const auto [x, y, width, height] = x_y_width_height;
+  gl.bind_framebuffer(GL_READ_FRAMEBUFFER, target_.id());
+  gl.bind_framebuffer(GL_DRAW_FRAMEBUFFER, to);
+  gl.blit_framebuffer(x, y, x + width, y + height, x, y, x + width, y + height, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+  gl.bind_framebuffer(GL_FRAMEBUFFER, to);
+}
+
 Image8 Framebuffer::read(int width, int height) const {
   assert(width <= width_ && height <= height_);
   color_.gl().bind_framebuffer(GL_FRAMEBUFFER, target_.id());

@@ -57,6 +57,7 @@ void load_drawing(Loader loader, Functions& gl) {
   load(loader, gl.active_texture, "glActiveTexture");
   load(loader, gl.blend_equation, "glBlendEquation");
   load(loader, gl.blend_func_separate, "glBlendFuncSeparate");
+  load(loader, gl.blit_framebuffer, "glBlitFramebuffer");
   load(loader, gl.clear, "glClear");
   load(loader, gl.clear_color, "glClearColor");
   load(loader, gl.disable, "glDisable");

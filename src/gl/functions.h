@@ -18,6 +18,7 @@ struct Functions {
   PFNGLBINDVERTEXARRAYPROC bind_vertex_array = nullptr;
   PFNGLBLENDEQUATIONPROC blend_equation = nullptr;
   PFNGLBLENDFUNCSEPARATEPROC blend_func_separate = nullptr;
+  PFNGLBLITFRAMEBUFFERPROC blit_framebuffer = nullptr;
   PFNGLBUFFERDATAPROC buffer_data = nullptr;
   PFNGLBUFFERSUBDATAPROC buffer_sub_data = nullptr;
   PFNGLCHECKFRAMEBUFFERSTATUSPROC check_framebuffer_status = nullptr;

@@ -1,6 +1,5 @@
 #include "gl/program.h"
 
-#include <cassert>
 #include <cstddef>
 
 #include "core/error.h"
@@ -90,9 +89,7 @@ void Program::set(const char* uniform, const std::array<float, 4>& value) const 
 }
 
 GLint Program::location(const char* uniform) const {
-  const GLint found = name_.gl().get_uniform_location(name_.id(), uniform);
-  assert(found >= 0);
-  return found;
+  return name_.gl().get_uniform_location(name_.id(), uniform);
 }
 
 }  // namespace meander

@@ -20,7 +20,7 @@ class Program {
   Program(const Functions& gl, const ShaderSource& vertex, const ShaderSource& fragment);
 
   void use() const;
-  /// Sets a uniform of the program in use; a name the shaders do not have is our own mistake.
+  /// Sets a uniform of the program in use; one that its shaders do not look at is left out.
   void set(const char* uniform, float value) const;
   void set(const char* uniform, int value) const;
   void set(const char* uniform, const std::array<float, 2>& value) const;

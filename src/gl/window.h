@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gl/extent.h"
 #include "gl/functions.h"
 #include "gl/input.h"
 
@@ -12,13 +13,6 @@ namespace meander {
 
 /// The shape of the pointer over the window.
 enum class Cursor { arrow, text, crosshair, hand, horizontal, vertical };
-
-struct Extent {
-  int width = 0;
-  int height = 0;
-
-  bool operator==(const Extent&) const = default;
-};
 
 /// One at a time, made and used by the main thread; GL objects must go before it does. A display that goes
 /// away while the window is open ends the process with one line and exit code 3: Xlib cannot go on.
