@@ -1,6 +1,6 @@
-// Arnold, as .ass text: the standard_surface shader. Names and types: Arnold User Guide, Standard Surface,
-// Subsurface (Arnold 7). The closure behind it takes a mean free path and a surface albedo (Arnold API
-// reference, ai_shader_closure.h, AiClosureRandomWalkBSSRDF); what it makes of them inside is not published.
+// Arnold, as .ass text: the standard_surface shader of Arnold 7. The closure behind it takes a mean free
+// path, a surface albedo and g (Arnold API reference, ai_shader_closure.h, AiClosureRandomWalkBSSRDF); what
+// it makes of them inside is not published.
 #include "io/export_dialects.h"
 #include "io/export_text.h"
 

@@ -9,8 +9,8 @@
 namespace meander {
 
 /// A material to be written. A dielectric boundary without an index step is no interface, and arrives as
-/// matched. `identifier` is for those languages that name things by one; with `_surface`, `_medium` and
-/// `_boundary` added it is free, too.
+/// matched. `identifier` is for the languages that name things by one; no other material has it, or it with
+/// `_surface` added.
 struct ExportTask {
   TranslucentMaterial material;
   std::string name;

@@ -1,6 +1,5 @@
 #include "io/material_export.h"
 
-#include <algorithm>
 #include <cassert>
 #include <set>
 
@@ -55,17 +54,13 @@ std::string heading(Renderer renderer, double millimetres_per_unit) {
   return renderer == Renderer::cycles ? text + "import bpy\n" : text;
 }
 
-// The identifier, and those that are made of it, unlike any before.
+// The identifier, and its surface's, unlike any before.
 std::string unique_identifier(const std::string& name, std::set<std::string>& taken) {
   const std::string base = identifier_of(name);
   std::string identifier = base;
-  const auto variants = [](const std::string& stem) {
-    return std::array<std::string, 4>{stem, stem + "_surface", stem + "_medium", stem + "_boundary"};
-  };
-  const auto is_taken = [&taken](const std::string& word) { return taken.contains(word); };
-  for (int i = 2; std::ranges::any_of(variants(identifier), is_taken); ++i)
-    identifier = base + "_" + std::to_string(i);
-  for (const std::string& word : variants(identifier)) taken.insert(word);
+  const auto is_taken = [&] { return taken.contains(identifier) || taken.contains(identifier + "_surface"); };
+  for (int i = 2; is_taken(); ++i) identifier = base + "_" + std::to_string(i);
+  taken.insert({identifier, identifier + "_surface"});
   return identifier;
 }
 

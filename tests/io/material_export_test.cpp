@@ -199,6 +199,13 @@ TEST_CASE("Mitsuba and pbrt get the coefficients themselves, and the width of th
   CHECK(number(pbrt, "\"float eta\"") == 1.6);
 }
 
+TEST_CASE("a dielectric boundary without an index step is none") {
+  const TranslucentMaterial plain = material(DVec3(0.9), DVec3(1), 0.3, Boundary::matched);
+  TranslucentMaterial frosted = material(DVec3(0.9), DVec3(1), 0.3, Boundary::dielectric);
+  frosted.roughness = 0.4;
+  for (const Renderer renderer : kAll) CHECK(text_of(frosted, renderer) == text_of(plain, renderer));
+}
+
 TEST_CASE("the boundary of each kind in Mitsuba and pbrt") {
   const auto with = [](Boundary boundary, double ior) {
     return material(DVec3(0.9), DVec3(1), 0, boundary, ior);
@@ -341,7 +348,8 @@ TEST_CASE("no name breaks out of its place") {
 TEST_CASE("identifiers are unique, also with what is made of them") {
   const TranslucentMaterial wax = material(DVec3(0.9), DVec3(1), 0, Boundary::matched);
   std::vector<NamedMaterial> materials;
-  for (const char* name : {"a b", "a_b", "a_b_2", "a_b_medium", "a_b_surface", "9", "_9", "", "\xe8\x9d\x8b"})
+  for (const char* name :
+       {"a b", "a_b", "a_b_2", "a_b_medium", "a_b_surface", "x_surface", "x", "9", "_9", "", "\xe8\x9d\x8b"})
     materials.push_back({name, wax});
   for (const auto& [renderer, marker] : {std::pair(Renderer::openpbr, std::string(" name=\"")),
                                          std::pair(Renderer::mitsuba, std::string(" id=\""))}) {
