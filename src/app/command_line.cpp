@@ -86,6 +86,7 @@ int run_command_line(int argc, char** argv) {
   add_capture_command(app, action);
   add_measure_command(app, action);
   add_compare_command(app, action);
+  add_convert_command(app, action);
   check_verb(app, argc, argv);
   try {
     app.parse(argc, argv);
