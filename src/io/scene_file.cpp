@@ -20,7 +20,6 @@ constexpr Range kFilmSide{1, kLargestSide, false, false, "a whole number from 1 
 constexpr Range kFieldOfView{0, 180, true, true, "greater than 0 and less than 180 degrees"};
 constexpr Range kSize{1e-12, 1e12, false, false, "in [1e-12, 1e12]"};
 constexpr Range kExposure{-50, 50, false, false, "in [-50, 50] stops"};
-constexpr std::array<std::string_view, 1> kTones{"srgb"};
 constexpr std::array<std::string_view, 2> kUpAxes{"y", "z"};
 constexpr std::array<std::string_view, 4> kLightTypes{"rectangle", "sphere", "point", "directional"};
 constexpr std::array<std::string_view, 4> kShapes{"sphere", "box", "slab", "torus_knot"};
@@ -55,7 +54,7 @@ void read_film(TomlTable table, FilmSize& film) {
 
 void read_display(TomlTable table, Display& display) {
   display.exposure = table.number("exposure", kExposure).value_or(display.exposure);
-  (void)table.choice("tone", kTones);
+  if (const auto tone = table.choice("tone", kToneNames)) display.tone = static_cast<Tone>(*tone);
   table.finish();
 }
 
