@@ -1,6 +1,9 @@
 // The verbs render and capture.
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "app/command_line.h"
 #include "app/render_options.h"
@@ -25,9 +28,23 @@ int render_exr(const RenderOptions& options) {
   return 0;
 }
 
-int capture_png(const RenderOptions& options, const std::optional<double>& exposure) {
+// What the command line says instead of the scene.
+struct CaptureLook {
+  std::optional<double> exposure;
+  std::optional<std::string> tone;
+};
+
+ViewOptions view_options(const Display& display, const CaptureLook& look) {
+  ViewOptions view{.exposure = static_cast<float>(look.exposure.value_or(display.exposure)),
+                   .tone = display.tone};
+  if (look.tone)
+    view.tone = static_cast<Tone>(std::ranges::find(kToneNames, *look.tone) - kToneNames.begin());
+  return view;
+}
+
+int capture_png(const RenderOptions& options, const CaptureLook& look) {
   const FinishedRun run = run_render(options, kPng);
-  const ViewOptions view{static_cast<float>(exposure.value_or(run.job.scene->display.exposure))};
+  const ViewOptions view = view_options(run.job.scene->display, look);
   write_png(options.output, capture_frame(resolve(run.rendering.film), view),
             image_attributes(run.job, run.rendering));
   print_summary(options, run);
@@ -48,10 +65,12 @@ void add_capture_command(CLI::App& app, Action& action) {
   CLI::App* verb =
       app.add_subcommand("capture", "trace a scene and draw it through OpenGL, off-screen, into a PNG");
   const auto options = std::make_shared<RenderOptions>();
-  const auto exposure = std::make_shared<std::optional<double>>();
+  const auto look = std::make_shared<CaptureLook>();
   add_render_options(*verb, *options);
-  verb->add_option("--exposure", *exposure, "stops (the scene's)")->check(CLI::Range(-50.0, 50.0));
-  verb->callback([=, &action] { action = [=] { return capture_png(*options, *exposure); }; });
+  verb->add_option("--exposure", look->exposure, "stops (the scene's)")->check(CLI::Range(-50.0, 50.0));
+  verb->add_option("--tone", look->tone, "tone curve: srgb or filmic (the scene's)")
+      ->check(CLI::IsMember({std::string(kToneNames[0]), std::string(kToneNames[1])}));
+  verb->callback([=, &action] { action = [=] { return capture_png(*options, *look); }; });
 }
 
 }  // namespace meander

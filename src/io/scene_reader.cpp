@@ -15,7 +15,6 @@ constexpr double kLargestSide = 16384;
 constexpr Range kFilmSide{1, kLargestSide, false, false, "a whole number from 1 to 16384"};
 constexpr Range kSize{1e-12, 1e12, false, false, "in [1e-12, 1e12]"};
 constexpr Range kExposure{-50, 50, false, false, "in [-50, 50] stops"};
-constexpr std::array<std::string_view, 2> kTones{"srgb", "filmic"};
 constexpr std::array<std::string_view, 2> kUpAxes{"y", "z"};
 constexpr std::array<std::string_view, 4> kShapes{"sphere", "box", "slab", "torus_knot"};
 
@@ -33,7 +32,7 @@ void read_film(TomlTable table, FilmSize& film) {
 
 void read_display(TomlTable table, Display& display) {
   display.exposure = table.number("exposure", kExposure).value_or(display.exposure);
-  display.filmic = table.choice("tone", kTones).value_or(0) == 1;
+  if (const auto tone = table.choice("tone", kToneNames)) display.tone = static_cast<Tone>(*tone);
   table.finish();
 }
 

@@ -15,7 +15,7 @@ enum class Tone : std::uint8_t { srgb, filmic };
 inline constexpr std::array<std::string_view, 2> kToneNames{"srgb", "filmic"};
 
 /// K. Narkowicz's fit of the ACES film curve ("ACES Filmic Tone Mapping Curve", 2015), its input scaled so
-/// that middle grey, 0.18, stays 0.18. Linear to linear, of x >= 0; beyond 10.02 it exceeds 1.
+/// that middle grey, 0.18, stays 0.18. Linear to linear, of x >= 0; beyond 10.01 it exceeds 1.
 [[nodiscard]] inline double filmic(double x) noexcept {
   const double y = std::min(x, 1e6) * 0.72317080;
   return y * (2.51 * y + 0.03) / (y * (2.43 * y + 0.59) + 0.14);

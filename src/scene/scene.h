@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "math/tone.h"
 #include "math/types.h"
 #include "medium/medium.h"
 #include "medium/surface.h"
@@ -33,7 +34,7 @@ struct FilmSize {
 
 struct Display {
   double exposure = 0;  // stops
-  bool filmic = false;  // the tone curve; plain sRGB without
+  Tone tone = Tone::srgb;
 };
 
 /// The same radiance from every direction, or an image in its place; `visible` false hides it from camera

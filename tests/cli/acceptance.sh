@@ -47,6 +47,25 @@ for attribute in meander/scene meander/spp meander/seed meander/version; do
   grep -aq "$attribute" one.exr || fail "the EXR does not carry $attribute"
 done
 
+# The tone curve is the scene's, unless the command line says another.
+"$meander" capture "$scene" -o plain.png "${small[@]}"
+"$meander" capture "$scene" -o filmic.png "${small[@]}" --tone filmic
+"$meander" capture "$scene" -o scene.png "${small[@]}" --set display.tone=filmic
+"$meander" capture "$scene" -o told.png "${small[@]}" --set display.tone=filmic --tone srgb
+python3 - <<'PY' || fail "the tone curve"
+import zlib
+def pixels(name):
+    data, at, packed = open(name, 'rb').read(), 8, b''
+    while at < len(data):
+        size = int.from_bytes(data[at:at + 4], 'big')
+        if data[at + 4:at + 8] == b'IDAT':
+            packed += data[at + 8:at + 8 + size]
+        at += 12 + size
+    return zlib.decompress(packed)
+plain, filmic, scene, told = (pixels(name + '.png') for name in ('plain', 'filmic', 'scene', 'told'))
+assert plain == told and filmic == scene and plain != filmic
+PY
+
 # A bare mesh is shown in the studio.
 "$meander" capture "$source/scenes/soap.ply" -o soap.png "${small[@]}"
 

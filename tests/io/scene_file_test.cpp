@@ -16,7 +16,7 @@ TEST_CASE("a whole scene arrives as written, defaults where it is silent") {
     width = 64
     [display]
     exposure = -1.5
-    tone = "srgb"
+    tone = "filmic"
     [environment]
     radiance = [0.1, 0.2, 0.3]
     visible = false
@@ -50,6 +50,7 @@ TEST_CASE("a whole scene arrives as written, defaults where it is silent") {
   CHECK(scene.film.width == 64);
   CHECK(scene.film.height == 540);
   CHECK(scene.display.exposure == -1.5);
+  CHECK(scene.display.tone == Tone::filmic);
   CHECK(scene.environment.radiance.y == Real(0.2));
   CHECK_FALSE(scene.environment.visible);
   REQUIRE(scene.lights.size() == 2);

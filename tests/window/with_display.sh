@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # Runs a command on an X display of its own, and passes on its exit code.
 #   with_display.sh [-s WIDTHxHEIGHT] [-d DPI] COMMAND…
-# MEANDER_XVFB_PID is the server's process id, for a test that ends it early. Without Xvfb the exit code is 77.
+# The command sees the environment as it was, a DISPLAY, and in MEANDER_XVFB_PID the server's process id, for a test
+# that ends it early. Without Xvfb the exit code is 77.
 set -euo pipefail
 
-screen=1920x1200
-dpi=96
-while getopts s:d: option; do
-  case $option in
-    s) screen=$OPTARG ;;
-    d) dpi=$OPTARG ;;
+own_screen=1920x1200
+own_dpi=96
+while getopts s:d: own_option; do
+  case $own_option in
+    s) own_screen=$OPTARG ;;
+    d) own_dpi=$OPTARG ;;
     *) exit 2 ;;
   esac
 done
@@ -17,25 +18,25 @@ shift $((OPTIND - 1))
 (($# > 0)) || { printf 'usage: with_display.sh [-s WIDTHxHEIGHT] [-d DPI] COMMAND...\n' >&2; exit 2; }
 command -v Xvfb >/dev/null || { printf 'with_display.sh: no Xvfb here\n' >&2; exit 77; }
 
-folder=$(mktemp -d)
-server=
+own_folder=$(mktemp -d)
+own_server=
 finish() {
-  [[ -z $server ]] || { kill "$server" 2>/dev/null && wait "$server" 2>/dev/null; } || true
-  rm -rf -- "$folder"
+  [[ -z $own_server ]] || { kill "$own_server" 2>/dev/null && wait "$own_server" 2>/dev/null; } || true
+  rm -rf -- "$own_folder"
 }
 trap finish EXIT
 
-# It picks a number that is free and writes it when it listens.
-Xvfb -displayfd 3 -screen 0 "${screen}x24" -dpi "$dpi" -nolisten tcp +extension GLX 3>"$folder/number" \
-  >"$folder/log" 2>&1 &
-server=$!
+# It picks a number that is free and writes it when it listens. It stays as it is when the last window closes.
+Xvfb -displayfd 3 -screen 0 "${own_screen}x24" -dpi "$own_dpi" -nolisten tcp -noreset +extension GLX 3>"$own_folder/number" \
+  >"$own_folder/log" 2>&1 &
+own_server=$!
 for ((i = 0; i < 300; i++)); do
-  [[ -s $folder/number ]] && break
-  kill -0 "$server" 2>/dev/null || break
+  [[ -s $own_folder/number ]] && break
+  kill -0 "$own_server" 2>/dev/null || break
   sleep 0.1
 done
-[[ -s $folder/number ]] || { cat "$folder/log" >&2; printf 'with_display.sh: Xvfb does not start\n' >&2; exit 3; }
+[[ -s $own_folder/number ]] || { cat "$own_folder/log" >&2; printf 'with_display.sh: Xvfb does not start\n' >&2; exit 3; }
 
-status=0
-DISPLAY=:$(<"$folder/number") MEANDER_XVFB_PID=$server "$@" || status=$?
-exit "$status"
+own_status=0
+DISPLAY=:$(<"$own_folder/number") MEANDER_XVFB_PID=$own_server "$@" || own_status=$?
+exit "$own_status"
