@@ -1,11 +1,10 @@
 #include "gl/framebuffer.h"
 
 #include <cassert>
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include "core/error.h"
+#include "gl/state.h"
 
 namespace meander {
 namespace {
@@ -45,26 +44,20 @@ void Framebuffer::bind(int width, int height) const {
   color_.gl().viewport(0, 0, width, height);
 }
 
+void Framebuffer::copy_to(GLuint to, const std::array<int, 4>& x_y_width_height) const {
+  const Functions& gl = color_.gl();
+  const auto [x, y, width, height] = x_y_width_height;
+  gl.bind_framebuffer(GL_READ_FRAMEBUFFER, target_.id());
+  gl.bind_framebuffer(GL_DRAW_FRAMEBUFFER, to);
+  gl.blit_framebuffer(x, y, x + width, y + height, x, y, x + width, y + height, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+  gl.bind_framebuffer(GL_FRAMEBUFFER, to);
+}
+
 Image8 Framebuffer::read(int width, int height) const {
   assert(width <= width_ && height <= height_);
-  const Functions& gl = color_.gl();
-  std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width) * height * 4);
-  gl.bind_framebuffer(GL_FRAMEBUFFER, target_.id());
-  gl.pixel_storei(GL_PACK_ALIGNMENT, 4);
-  gl.pixel_storei(GL_PACK_ROW_LENGTH, 0);
-  gl.read_pixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  expect_no_error(gl, "reading the frame back");
-  Image8 frame(width, height);
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t* from = rgba.data() + static_cast<std::size_t>(height - 1 - y) * width * 4;
-    std::uint8_t* to = frame.at(0, y);
-    for (int x = 0; x < width; ++x, from += 4, to += 3) {
-      to[0] = from[0];
-      to[1] = from[1];
-      to[2] = from[2];
-    }
-  }
-  return frame;
+  color_.gl().bind_framebuffer(GL_FRAMEBUFFER, target_.id());
+  return read_pixels(color_.gl(), width, height);
 }
 
 }  // namespace meander

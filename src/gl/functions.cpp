@@ -16,21 +16,27 @@ void load(Loader loader, Pointer& pointer, const char* name) {
 
 void load_objects(Loader loader, Functions& gl) {
   load(loader, gl.attach_shader, "glAttachShader");
+  load(loader, gl.bind_buffer, "glBindBuffer");
   load(loader, gl.bind_framebuffer, "glBindFramebuffer");
   load(loader, gl.bind_renderbuffer, "glBindRenderbuffer");
   load(loader, gl.bind_texture, "glBindTexture");
   load(loader, gl.bind_vertex_array, "glBindVertexArray");
+  load(loader, gl.buffer_data, "glBufferData");
+  load(loader, gl.buffer_sub_data, "glBufferSubData");
   load(loader, gl.check_framebuffer_status, "glCheckFramebufferStatus");
   load(loader, gl.compile_shader, "glCompileShader");
   load(loader, gl.create_program, "glCreateProgram");
   load(loader, gl.create_shader, "glCreateShader");
+  load(loader, gl.delete_buffers, "glDeleteBuffers");
   load(loader, gl.delete_framebuffers, "glDeleteFramebuffers");
   load(loader, gl.delete_program, "glDeleteProgram");
   load(loader, gl.delete_renderbuffers, "glDeleteRenderbuffers");
   load(loader, gl.delete_shader, "glDeleteShader");
   load(loader, gl.delete_textures, "glDeleteTextures");
   load(loader, gl.delete_vertex_arrays, "glDeleteVertexArrays");
+  load(loader, gl.enable_vertex_attrib_array, "glEnableVertexAttribArray");
   load(loader, gl.framebuffer_renderbuffer, "glFramebufferRenderbuffer");
+  load(loader, gl.gen_buffers, "glGenBuffers");
   load(loader, gl.gen_framebuffers, "glGenFramebuffers");
   load(loader, gl.gen_renderbuffers, "glGenRenderbuffers");
   load(loader, gl.gen_textures, "glGenTextures");
@@ -40,23 +46,40 @@ void load_objects(Loader loader, Functions& gl) {
   load(loader, gl.get_shader_info_log, "glGetShaderInfoLog");
   load(loader, gl.get_shaderiv, "glGetShaderiv");
   load(loader, gl.link_program, "glLinkProgram");
+  load(loader, gl.map_buffer_range, "glMapBufferRange");
   load(loader, gl.renderbuffer_storage, "glRenderbufferStorage");
   load(loader, gl.shader_source, "glShaderSource");
+  load(loader, gl.unmap_buffer, "glUnmapBuffer");
+  load(loader, gl.vertex_attrib_pointer, "glVertexAttribPointer");
 }
 
 void load_drawing(Loader loader, Functions& gl) {
   load(loader, gl.active_texture, "glActiveTexture");
+  load(loader, gl.blend_equation, "glBlendEquation");
+  load(loader, gl.blend_func_separate, "glBlendFuncSeparate");
+  load(loader, gl.blit_framebuffer, "glBlitFramebuffer");
+  load(loader, gl.clear, "glClear");
+  load(loader, gl.clear_color, "glClearColor");
   load(loader, gl.disable, "glDisable");
   load(loader, gl.draw_arrays, "glDrawArrays");
+  load(loader, gl.draw_elements_base_vertex, "glDrawElementsBaseVertex");
+  load(loader, gl.enable, "glEnable");
+  load(loader, gl.finish, "glFinish");
   load(loader, gl.get_error, "glGetError");
   load(loader, gl.get_integerv, "glGetIntegerv");
+  load(loader, gl.get_string, "glGetString");
   load(loader, gl.get_uniform_location, "glGetUniformLocation");
   load(loader, gl.pixel_storei, "glPixelStorei");
   load(loader, gl.read_pixels, "glReadPixels");
+  load(loader, gl.scissor, "glScissor");
   load(loader, gl.tex_image_2d, "glTexImage2D");
   load(loader, gl.tex_parameteri, "glTexParameteri");
+  load(loader, gl.tex_parameteriv, "glTexParameteriv");
+  load(loader, gl.tex_sub_image_2d, "glTexSubImage2D");
   load(loader, gl.uniform_1f, "glUniform1f");
   load(loader, gl.uniform_1i, "glUniform1i");
+  load(loader, gl.uniform_2f, "glUniform2f");
+  load(loader, gl.uniform_4f, "glUniform4f");
   load(loader, gl.use_program, "glUseProgram");
   load(loader, gl.viewport, "glViewport");
 }

@@ -1,6 +1,5 @@
 #include "gl/program.h"
 
-#include <cassert>
 #include <cstddef>
 
 #include "core/error.h"
@@ -81,10 +80,16 @@ void Program::set(const char* uniform, float value) const { name_.gl().uniform_1
 
 void Program::set(const char* uniform, int value) const { name_.gl().uniform_1i(location(uniform), value); }
 
+void Program::set(const char* uniform, const std::array<float, 2>& value) const {
+  name_.gl().uniform_2f(location(uniform), value[0], value[1]);
+}
+
+void Program::set(const char* uniform, const std::array<float, 4>& value) const {
+  name_.gl().uniform_4f(location(uniform), value[0], value[1], value[2], value[3]);
+}
+
 GLint Program::location(const char* uniform) const {
-  const GLint found = name_.gl().get_uniform_location(name_.id(), uniform);
-  assert(found >= 0);
-  return found;
+  return name_.gl().get_uniform_location(name_.id(), uniform);
 }
 
 }  // namespace meander

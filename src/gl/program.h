@@ -1,6 +1,7 @@
 // A linked pair of a vertex and a fragment shader.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "gl/name.h"
@@ -19,9 +20,11 @@ class Program {
   Program(const Functions& gl, const ShaderSource& vertex, const ShaderSource& fragment);
 
   void use() const;
-  /// Sets a uniform of the program in use; a name the shaders do not have is our own mistake.
+  /// Sets a uniform of the program in use; one that its shaders do not look at is left out.
   void set(const char* uniform, float value) const;
   void set(const char* uniform, int value) const;
+  void set(const char* uniform, const std::array<float, 2>& value) const;
+  void set(const char* uniform, const std::array<float, 4>& value) const;
 
  private:
   static void destroy(const Functions& gl, GLuint id) { gl.delete_program(id); }

@@ -39,6 +39,12 @@ int expected_level(float linear, float exposure) {
   return static_cast<int>(std::lround(255.0 * static_cast<double>(encode_srgb(static_cast<Real>(x)))));
 }
 
+// The whole of a film, pixel for pixel.
+Stage whole(const Image& film) {
+  return {
+      {0, 0, static_cast<float>(film.width), static_cast<float>(film.height)}, film.width, film.height, {}};
+}
+
 struct Difference {
   int largest = 0;
   std::size_t differing = 0;
@@ -177,12 +183,15 @@ TEST_CASE("a view draws correctly in one context after another, and after other 
     const Functions& gl = context.functions();
     CHECK(integer(gl, GL_MAJOR_VERSION) * 10 + integer(gl, GL_MINOR_VERSION) >= 33);
     FilmView view(gl);
+    FilmTextures textures(gl);
     const Framebuffer target(gl, 40, 30);
-    view.upload(ramp(5, 5, 3), {0, 0, 5, 5});
-    view.upload(film, {0, 0, film.width, film.height});
+    textures.show(ramp(5, 5, 3), 1);
+    textures.show(film, 1);  // of another size: not the same, whatever the version says
     target.bind(film.width, film.height);
-    view.draw({});
-    view.draw({});
+    for (const GLenum state : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST}) gl.enable(state);
+    gl.scissor(0, 0, 1, 1);
+    view.draw(textures, {}, whole(film));
+    view.draw(textures, {}, whole(film));
     CHECK(gl.get_error() == GL_NO_ERROR);
     CHECK(difference(target.read(film.width, film.height), film, 0).largest <= 1);
     CHECK(gl.get_error() == GL_NO_ERROR);
@@ -191,25 +200,25 @@ TEST_CASE("a view draws correctly in one context after another, and after other 
 
 TEST_CASE("two contexts alive at once keep their own pictures") {
   const Image film = ramp(8, 8, 3);
+  const Image black(8, 8, 3);
   Offscreen first(8, 8);
-  const FilmView first_view = [&] {
-    FilmView view(first.functions());
-    view.upload(film, {0, 0, 8, 8});
-    return view;
-  }();
+  FilmView first_view(first.functions());
+  FilmTextures first_textures(first.functions());
+  first_textures.show(film, 1);
   const Framebuffer first_target(first.functions(), 8, 8);
   {
     Offscreen second(8, 8);
     FilmView second_view(second.functions());
-    second_view.upload(Image(8, 8, 3), {0, 0, 8, 8});
+    FilmTextures second_textures(second.functions());
+    second_textures.show(black, 1);
     const Framebuffer second_target(second.functions(), 8, 8);
     second_target.bind(8, 8);
-    second_view.draw({});
+    second_view.draw(second_textures, {}, whole(black));
     first.make_current();
     first_target.bind(8, 8);
-    first_view.draw({});
+    first_view.draw(first_textures, {}, whole(film));
     second.make_current();
-    CHECK(difference(second_target.read(8, 8), Image(8, 8, 3), 0).largest == 0);
+    CHECK(difference(second_target.read(8, 8), black, 0).largest == 0);
   }
   first.make_current();
   CHECK(difference(first_target.read(8, 8), film, 0).largest <= 1);
@@ -217,10 +226,10 @@ TEST_CASE("two contexts alive at once keep their own pictures") {
 
 TEST_CASE("an upload beyond the texture limit and a buffer beyond Mesa's are clear errors") {
   const Offscreen context(1, 1);
-  FilmView view(context.functions());
+  FilmTextures textures(context.functions());
   const int limit = integer(context.functions(), GL_MAX_TEXTURE_SIZE);
   const Image wide(limit + 1, 1, 3);
-  const std::string upload = message_of([&] { view.upload(wide, {0, 0, limit + 1, 1}); });
+  const std::string upload = message_of([&] { textures.show(wide, 1); });
   CHECK(upload.find(std::to_string(limit + 1) + " x 1") != std::string::npos);
   const std::string buffer = message_of([] { Offscreen(1000000, 1); });
   CHECK(buffer.find("1000000 x 1") != std::string::npos);
