@@ -82,6 +82,7 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", MEANDER_VERSION);
   Action action;
+  add_preview_command(app, action);
   add_render_command(app, action);
   add_capture_command(app, action);
   add_measure_command(app, action);

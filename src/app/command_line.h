@@ -17,6 +17,7 @@ using Action = std::function<int()>;
 
 // Each adds one verb, and sets `action` when that verb is on the command line.
 void add_render_command(CLI::App& app, Action& action);
+void add_preview_command(CLI::App& app, Action& action);
 void add_capture_command(CLI::App& app, Action& action);
 void add_measure_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);

@@ -75,32 +75,46 @@ Job make_job(const RenderOptions& options, Scene scene) {
 
 }  // namespace
 
-void add_render_options(CLI::App& verb, RenderOptions& o) {
-  verb.add_option("SCENE", o.scene, "scene file (.toml), or a bare mesh (.ply .obj .glb .stl)")->required();
-  verb.add_option("-o,--output", o.output, "image file to write")->required();
-  verb.add_option("--spp", o.spp, "samples a pixel (64 when neither --time nor --error is given)")
+void add_budget_options(CLI::App& verb, RenderOptions& o) {
+  verb.add_option("--spp", o.spp, "samples a pixel at which the image is done")
       ->check(at_least(1))
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
   verb.add_option("--time", o.seconds, "seconds to render for")->check(greater_than(0));
   verb.add_option("--error,--noise", o.error, "relative noise to reach, such as 0.01")
       ->check(greater_than(0));
   verb.add_option("--seed", o.seed, "random seed (0)")->check(whole_number());
-  verb.add_option("--first-sample", o.first_sample, "number of the first sample (0)")
-      ->check(CLI::Range(0u, 1u << 31));
   verb.add_option("--threads", o.threads, "threads (all that the machine has, and at most those)")
       ->check(CLI::Range(1, 1024));
   verb.add_option("--width", o.width, "film width, pixels")->check(CLI::Range(1, 16384));
   verb.add_option("--height", o.height, "film height, pixels")->check(CLI::Range(1, 16384));
-  verb.add_option("--crop", o.crop, "X0,Y0,X1,Y1: render this rectangle of the film only")
-      ->delimiter(',')
-      ->expected(4);
   verb.add_option("--estimator", o.estimator, "analog or implicit (implicit)")
       ->check(CLI::IsMember({"analog", "implicit"}));
   verb.add_option("--set", o.edits, "PATH=VALUE: any scene value, such as material.wax.g=0.4 (repeatable)")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_render_options(CLI::App& verb, RenderOptions& o) {
+  verb.add_option("SCENE", o.scene, "scene file (.toml), or a bare mesh (.ply .obj .glb .stl)")->required();
+  verb.add_option("-o,--output", o.output, "image file to write")->required();
+  add_budget_options(verb, o);
+  verb.get_option("--spp")->description("samples a pixel (64 when neither --time nor --error is given)");
+  verb.add_option("--first-sample", o.first_sample, "number of the first sample (0)")
+      ->check(CLI::Range(0u, 1u << 31));
+  verb.add_option("--crop", o.crop, "X0,Y0,X1,Y1: render this rectangle of the film only")
+      ->delimiter(',')
+      ->expected(4);
   verb.add_option("--stats", o.stats, "file for statistics (.json)");
   verb.add_flag("--quiet", o.quiet, "say nothing but errors");
+}
+
+PreviewSettings preview_settings(const RenderOptions& options) {
+  PreviewSettings settings;
+  settings.threads = options.threads > 0 ? std::min(options.threads, hardware_threads()) : hardware_threads();
+  settings.seed = options.seed;
+  settings.estimator = options.estimator == "analog" ? Estimator::analog : Estimator::implicit;
+  settings.budget = {options.spp, options.seconds, options.error};
+  return settings;
 }
 
 FinishedRun run_render(const RenderOptions& options, std::span<const std::string_view> extensions) {

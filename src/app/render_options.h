@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/preview_state.h"
 #include "render/progressive.h"
 
 namespace meander {
@@ -29,6 +30,12 @@ struct RenderOptions {
   std::string stats;
   bool quiet = false;
 };
+
+/// Declares what ends an image, its size and its edits, which all verbs that trace share.
+void add_budget_options(CLI::App& verb, RenderOptions& options);
+
+/// The previewer's settings that these options ask for.
+[[nodiscard]] PreviewSettings preview_settings(const RenderOptions& options);
 
 /// Declares the options on a verb; `options` must outlive the parse.
 void add_render_options(CLI::App& verb, RenderOptions& options);

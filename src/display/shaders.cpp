@@ -50,4 +50,16 @@ ShaderSource shader_source(const std::string& name) {
                                   "; set MEANDER_SHADERS to the folder of meander's shaders");
 }
 
+std::vector<std::string> shader_files() {
+  std::vector<std::string> files;
+  for (const fs::path& folder : shader_folders()) {
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed))
+      if (entry.path().extension() == ".frag" || entry.path().extension() == ".vert")
+        files.push_back(entry.path().string());
+    if (!files.empty()) break;
+  }
+  return files;
+}
+
 }  // namespace meander

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "gl/program.h"
 
@@ -11,5 +12,8 @@ namespace meander {
 /// MEANDER_SHADERS, ../share/meander/shaders beside the executable's folder, the source tree it was built
 /// from. Error (runtime) naming the folders when none has it.
 [[nodiscard]] ShaderSource shader_source(const std::string& name);
+
+/// The paths of all shader files in the folder that shader_source takes them from: what to watch for changes.
+[[nodiscard]] std::vector<std::string> shader_files();
 
 }  // namespace meander

@@ -149,6 +149,20 @@ MaterialDescription SceneDocument::material(const std::string& name) const {
   return describe_material(table, {millimetres_of(copy.table), cache_->color_maps()});
 }
 
+EnvironmentDescription SceneDocument::environment() const {
+  EnvironmentDescription description;
+  const toml::table* raw = state_->table["environment"].as_table();
+  if (!raw) return description;
+  TomlTable table(*raw, state_->path, "[environment]");
+  description.radiance = table.triple("radiance", kNotNegative, true).value_or(DVec3(0));
+  if (const auto sky = table.choice("sky", kSkyNames)) description.sky = static_cast<Sky>(*sky);
+  description.image = table.text("image").value_or("");
+  description.rotation = table.number("rotation", kAnyNumber).value_or(0);
+  description.scale = table.number("scale", kNotNegative).value_or(1);
+  description.visible = table.boolean("visible").value_or(true);
+  return description;
+}
+
 bool SceneDocument::operator==(const SceneDocument& other) const {
   return state_ == other.state_ || (path() == other.path() && text() == other.text());
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/scene_file.h"
+#include "scene/environment_description.h"
 #include "scene/material_description.h"
 
 namespace meander {
@@ -72,6 +73,7 @@ class SceneDocument {
 
   /// Error when there is no material of this name.
   [[nodiscard]] MaterialDescription material(const std::string& name) const;
+  [[nodiscard]] EnvironmentDescription environment() const;
 
   /// Whether the two would be saved as the same text at the same path.
   [[nodiscard]] bool operator==(const SceneDocument& other) const;

@@ -1,0 +1,66 @@
+#include "app/preview_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meander {
+namespace {
+
+std::string first_translucent(const Scene& scene) {
+  for (const Object& object : scene.objects)
+    if (std::holds_alternative<TranslucentMaterial>(scene.materials[object.material].kind))
+      return scene.materials[object.material].name;
+  return {};
+}
+
+// A material of that name that can be edited here: translucent, or translucent but for a radius of 0.
+bool is_there(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [&](const Material& material) { return material.name == name; });
+}
+
+}  // namespace
+
+PreviewState::PreviewState(SceneDocument document) : history(document), original(std::move(document)) {
+  resolve();
+  original_scene = scene;
+}
+
+void PreviewState::settle() {
+  original = history.now();
+  original_scene = scene;
+}
+
+void PreviewState::change(SceneDocument next) {
+  auto resolved = std::make_shared<const Scene>(next.scene().scene);
+  history.change(std::move(next));
+  scene = std::move(resolved);
+  if (!is_there(*scene, material)) material = first_translucent(*scene);
+}
+
+void PreviewState::resolve() {
+  scene = std::make_shared<const Scene>(history.now().scene().scene);
+  if (!is_there(*scene, material)) material = first_translucent(*scene);
+}
+
+FilmSize scaled_film(const FilmSize& film, int percent) {
+  const auto scaled = [&](int side) { return std::max(1, (side * percent + 50) / 100); };
+  return {scaled(film.width), scaled(film.height)};
+}
+
+PixelBox scaled_box(const PixelBox& box, const FilmSize& film, int percent) {
+  const FilmSize scaled = scaled_film(film, percent);
+  const double x = static_cast<double>(scaled.width) / film.width;
+  const double y = static_cast<double>(scaled.height) / film.height;
+  const auto low = [](double v, int most) {
+    return std::clamp(static_cast<int>(std::floor(v)), 0, most - 1);
+  };
+  const auto high = [](double v, int least, int most) {
+    return std::clamp(static_cast<int>(std::ceil(v)), least + 1, most);
+  };
+  const int x0 = low(box.x0 * x, scaled.width);
+  const int y0 = low(box.y0 * y, scaled.height);
+  return {x0, y0, high(box.x1 * x, x0, scaled.width), high(box.y1 * y, y0, scaled.height)};
+}
+
+}  // namespace meander

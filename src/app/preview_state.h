@@ -1,0 +1,71 @@
+// What the previewer holds that is no picture: the scene under edit and how it is looked at.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/edit_history.h"
+#include "display/views.h"
+#include "film/plan.h"
+#include "scene/scene.h"
+#include "ui/models.h"
+#include "walk/random_walk.h"
+
+namespace meander {
+
+/// How the picture is rendered; a change of it, budget and threads aside, restarts the picture.
+struct PreviewSettings {
+  int scale = 100;  // percent of the film's size
+  int threads = 1;
+  std::uint64_t seed = 0;
+  Estimator estimator = Estimator::implicit;
+  Budget budget;
+  bool region_only = false;
+};
+
+/// How the picture is looked at; nothing of it restarts anything.
+struct PreviewLook {
+  View view = View::image;
+  Comparison comparison = Comparison::none;
+  float wipe = 0.5f;  // of the picture's width
+  int a = -1;         // snapshot that is A; -1 is the live picture
+  int b = -1;
+  bool selecting = false;          // the next drag draws the rectangle
+  std::optional<PixelBox> region;  // in film pixels at 100 %
+};
+
+struct PreviewState {
+  explicit PreviewState(SceneDocument document);
+
+  EditHistory history;
+  SceneDocument original;  // as it was opened, or last saved
+  std::shared_ptr<const Scene> original_scene;
+  std::shared_ptr<const Scene> scene;  // of history.now(), at 100 %
+  PreviewSettings settings;
+  PreviewLook look;
+  std::string material;  // the selected one
+  BrowserModel browser;
+  std::vector<Message> messages;
+  std::uint64_t next_message = 1;
+  bool quit = false;
+
+  void tell(MessageKind kind, std::string text, std::vector<std::string> details = {}) {
+    messages.push_back({next_message++, kind, std::move(text), std::move(details), 0});
+  }
+  /// Makes this document the one under edit, as a step of undo. Error when it does not read any more.
+  void change(SceneDocument next);
+  /// Takes history.now() for what is on disk: after opening and saving.
+  void settle();
+  /// Resolves history.now() anew: after undo and redo. Selects a material that is there.
+  void resolve();
+};
+
+/// The film of a scene at a percentage of its size, at least one pixel.
+[[nodiscard]] FilmSize scaled_film(const FilmSize& film, int percent);
+
+/// A box at 100 % as the box of whole pixels that it touches on a film at that percentage.
+[[nodiscard]] PixelBox scaled_box(const PixelBox& box, const FilmSize& film, int percent);
+
+}  // namespace meander

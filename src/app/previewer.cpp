@@ -1,0 +1,307 @@
+#include "app/previewer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "app/preview_commands.h"
+#include "core/error.h"
+#include "display/shaders.h"
+#include "ui/draw.h"
+
+namespace meander {
+namespace {
+
+constexpr double kWatchSeconds = 0.4;    // between two looks at the files
+constexpr double kRefineSeconds = 0.15;  // a held drag that rests this long is refined
+constexpr double kTickSeconds = 0.1;     // the status line's pace while the session works
+constexpr double kMessageSeconds = 6;
+constexpr int kSettleFrames = 3;  // Dear ImGui needs some frames to come to rest
+
+std::unique_ptr<Session> make_session(const PreviewSettings& settings) {
+  return std::make_unique<Session>(settings.threads);
+}
+
+}  // namespace
+
+Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions options, float scale)
+    : gl_(&gl),
+      state_(std::move(document)),
+      options_(std::move(options)),
+      interface_(scale),
+      interface_view_(gl),
+      pictures_(gl) {
+  state_.settings = options_.settings;
+  state_.look = options_.look;
+  ui_.hidden = options_.hidden;
+  session_ = make_session(state_.settings);
+  for (const std::string& warning : state_.history.now().scene().warnings)
+    state_.tell(MessageKind::warning, warning);
+  clipboard_ = {[] { return std::string(); }, [](const std::string&) {}};
+  files_.watch(state_.history.now().watched_files());
+  shaders_.watch(shader_files());
+  submit(false);
+}
+
+void Previewer::set_clipboard(ClipboardAccess clipboard) {
+  interface_.set_clipboard(clipboard);
+  clipboard_ = std::move(clipboard);
+}
+
+PointerShape Previewer::pointer_shape() const {
+  return state_.look.selecting ? PointerShape::crosshair : interface_.pointer_shape();
+}
+
+std::string Previewer::title() const {
+  const std::string name = std::filesystem::path(state_.history.now().path()).filename().string();
+  return (state_.history.now() == state_.original ? "" : "*") + name + " – meander";
+}
+
+std::uint64_t Previewer::spp() const {
+  if (!submitted_.empty() && interactive_) return 0;
+  const auto& frame = pictures_.newest();
+  return frame && frame->generation == generation_ && frame->scale == 1 ? frame->spp : 0;
+}
+
+std::optional<double> Previewer::first_image_seconds() const {
+  const auto& frame = pictures_.newest();
+  if (!frame || frame->generation != generation_) return std::nullopt;
+  return frame->first_image_seconds;
+}
+
+void Previewer::submit(bool interactive) {
+  Scene scene = *state_.scene;
+  const FilmSize film = scene.film;
+  scene.film = scaled_film(film, state_.settings.scale);
+  SessionRequest request;
+  if (state_.settings.region_only && state_.look.region) {
+    const PixelBox box = scaled_box(*state_.look.region, film, state_.settings.scale);
+    request.region = Tile{box.x0, box.y0, box.x1, box.y1};
+  }
+  request.scene = std::make_shared<const Scene>(std::move(scene));
+  request.budget = state_.settings.budget;
+  request.seed = state_.settings.seed;
+  request.estimator = state_.settings.estimator;
+  request.interactive = interactive;
+  generation_ = session_->submit(std::move(request));
+  interactive_ = interactive;
+}
+
+namespace {
+
+// Everything that an image depends on, as text: what the display does with it is left out.
+std::string trace_text(const PreviewState& state) {
+  std::string text = state.history.now().text();
+  if (const std::size_t begin = text.find("[display]"); begin != std::string::npos) {
+    const std::size_t end = text.find("\n[", begin);
+    text.erase(begin, end == std::string::npos ? std::string::npos : end - begin);
+  }
+  const PreviewSettings& settings = state.settings;
+  text += std::to_string(settings.scale) + ' ' + std::to_string(static_cast<int>(settings.estimator));
+  if (settings.region_only && state.look.region) {
+    const PixelBox& box = *state.look.region;
+    for (const int edge : {box.x0, box.y0, box.x1, box.y1}) text += ' ' + std::to_string(edge);
+  }
+  return text;
+}
+
+}  // namespace
+
+void Previewer::submit_if_changed(double now) {
+  std::string wanted = trace_text(state_);
+  if (wanted != submitted_) {
+    const bool first = submitted_.empty();
+    submitted_ = std::move(wanted);
+    last_change_ = now;
+    if (!first) submit(gesture_);
+    return;
+  }
+  if (interactive_ && (!gesture_ || now - last_change_ > kRefineSeconds)) submit(false);
+}
+
+void Previewer::feed(const InputEvent& event) {
+  frames_due_ = kSettleFrames;
+  if (event.kind == InputKind::drop) return take_drop(event);
+  interface_.feed(event);
+  const auto command = command_of(event, held_);
+  if (command && !interface_.wants_keyboard()) carry_out_safely(*command);
+  InputEvent in_points = event;
+  in_points.x *= event.kind == InputKind::scroll ? 1 : pointer_scale_;
+  in_points.y *= event.kind == InputKind::scroll ? 1 : pointer_scale_;
+  for (const PictureMove& move : navigate(navigation_, in_points, picture_area())) {
+    try {
+      move_picture(move);
+    } catch (const Error& error) {
+      state_.tell(MessageKind::error, error.what());
+    }
+  }
+}
+
+void Previewer::apply(const std::string& edit) {
+  SceneDocument document = state_.history.now();
+  document.apply(edit);
+  state_.change(std::move(document));
+  frames_due_ = kSettleFrames;
+  submit_if_changed(now_);
+}
+
+void Previewer::take_drop(const InputEvent& event) {
+  PreviewTools tools{*gl_, state_, pictures_, *session_, generation_, clipboard_};
+  const double x = event.x * pointer_scale_;
+  const double y = event.y * pointer_scale_;
+  const bool on_panel = contains(layout_.panel, static_cast<float>(x), static_cast<float>(y));
+  for (const std::string& path : event.paths) {
+    try {
+      open_file(tools, path, on_panel);
+    } catch (const Error& error) {
+      state_.tell(MessageKind::error, error.what());
+    }
+  }
+}
+
+void Previewer::reload_scene() {
+  try {
+    SceneDocument fresh = state_.history.now().reopened();
+    if (fresh.text() == state_.history.now().text()) {
+      state_.resolve();  // a mesh or a picture has changed, not the scene file
+      submit(false);
+    } else {
+      state_.change(std::move(fresh));
+      state_.settle();
+    }
+    state_.tell(MessageKind::note, "reloaded what changed on disk");
+  } catch (const Error& error) {
+    state_.tell(MessageKind::error, error.what());
+  }
+}
+
+void Previewer::reload_shaders() {
+  try {
+    pictures_.reload();
+    interface_view_.reload();
+    state_.tell(MessageKind::note, "reloaded the shaders");
+  } catch (const Error& error) {
+    state_.tell(MessageKind::error, error.what());
+  }
+}
+
+void Previewer::watch_files(double now) {
+  if (!options_.watches_files || now - last_watch_ < kWatchSeconds) return;
+  last_watch_ = now;
+  files_.watch(state_.history.now().watched_files());
+  if (!files_.changed().empty()) reload_scene();
+  if (!shaders_.changed().empty()) reload_shaders();
+}
+
+bool Previewer::update(double now) {
+  const double passed = now - now_;
+  now_ = now;
+  const std::size_t messages = state_.messages.size();
+  for (Message& message : state_.messages) message.age += passed;
+  std::erase_if(state_.messages, [](const Message& message) {
+    return message.kind != MessageKind::error &&
+           message.age > kMessageSeconds * (1 + !message.details.empty());
+  });
+  watch_files(now);
+  submit_if_changed(now);
+  if (const auto error = session_->take_error()) state_.tell(MessageKind::error, *error);
+  if (pictures_.take(session_->latest())) frames_due_ = std::max(frames_due_, 1);
+  if (state_.messages.size() != messages) frames_due_ = std::max(frames_due_, kSettleFrames);
+  if (interface_.pending()) frames_due_ = std::max(frames_due_, 1);
+  if (session_->working() && now - last_draw_ > kTickSeconds) frames_due_ = std::max(frames_due_, 1);
+  return frames_due_ > 0;
+}
+
+FilmPlacement Previewer::place_film(const PreviewSurface& surface) const {
+  const Area& image = layout_.image;
+  const float s = surface.scale;
+  const Region room{static_cast<int>(std::ceil(image.x * s)), static_cast<int>(std::ceil(image.y * s)),
+                    static_cast<int>(image.width * s), static_cast<int>(image.height * s)};
+  return fitted(state_.scene->film.width, state_.scene->film.height, room);
+}
+
+void Previewer::draw_interface_over(const PreviewSurface& surface) {
+  interface_.begin_frame(surface);
+  if (interface_.font_changed()) {
+    const FontBitmap font = interface_.font();
+    interface_.set_font_texture(interface_view_.upload_font(font.width, font.height, font.coverage));
+  }
+  ModelInputs inputs{pictures_, generation_, film_area_, pointed(), paused_};
+  const UiModel model = make_model(state_, inputs);
+  const UiActions actions = options_.only_panel ? draw_panel(*options_.only_panel, model, ui_, layout_.window)
+                                                : draw_interface(model, ui_, layout_);
+  const ImDrawData* data = interface_.end_frame();
+  interface_view_.draw(*data, surface.pixels_wide, surface.pixels_high);
+  carry_out_all(actions);
+}
+
+void Previewer::draw(const PreviewSurface& surface) {
+  frames_due_ = std::max(frames_due_ - 1, 0);
+  last_draw_ = now_;
+  pointer_scale_ = surface.pointer_scale;
+  layout_ = layout_of(surface.width(), surface.height(), ui_.hidden);
+  if (options_.only_panel) layout_.image = {};
+  const FilmPlacement film = place_film(surface);
+  film_area_ = {film.x / surface.scale, film.y / surface.scale, film.width / surface.scale,
+                film.height / surface.scale};
+  gl_->clear_color(0.105f, 0.105f, 0.105f, 1);
+  gl_->clear(GL_COLOR_BUFFER_BIT);
+  const Area& image = layout_.image;
+  const Region clip{static_cast<int>(image.x * surface.scale), static_cast<int>(image.y * surface.scale),
+                    static_cast<int>(image.width * surface.scale),
+                    static_cast<int>(image.height * surface.scale)};
+  pictures_.draw(state_.look, state_.scene->display, {film, clip, surface.pixels_wide, surface.pixels_high});
+  draw_interface_over(surface);
+}
+
+void Previewer::carry_out_all(const UiActions& actions) {
+  if (actions.gesture_started) {
+    gesture_ = true;
+    state_.history.begin_gesture();
+  }
+  for (const std::string& edit : actions.edits) {
+    try {
+      SceneDocument document = state_.history.now();
+      document.apply(edit);
+      state_.change(std::move(document));
+    } catch (const Error& error) {
+      state_.tell(MessageKind::error, error.what());
+    }
+  }
+  for (const Command& command : actions.commands) carry_out_safely(command);
+  if (actions.gesture_ended) {
+    gesture_ = false;
+    state_.history.end_gesture();
+  }
+  if (!actions.edits.empty() || !actions.commands.empty() || actions.gesture_ended)
+    frames_due_ = kSettleFrames;
+}
+
+void Previewer::carry_out_safely(const Command& command) {
+  try {
+    if (meander::carry_out(ui_, command)) return;
+    if (command.kind == CommandKind::pause) {
+      paused_ = !paused_;
+      session_->set_paused(paused_);
+    } else if (command.kind == CommandKind::reload) {
+      reload_scene();
+      reload_shaders();
+    } else if (command.kind == CommandKind::threads) {
+      state_.settings.threads = static_cast<int>(command.index);
+      session_ = make_session(state_.settings);
+      session_->set_paused(paused_);
+      submit(false);
+    } else {
+      PreviewTools tools{*gl_, state_, pictures_, *session_, generation_, clipboard_};
+      const auto before = state_.settings.budget;
+      carry_out(tools, command);
+      const auto& after = state_.settings.budget;
+      if (before.spp != after.spp || before.error != after.error || before.seconds != after.seconds)
+        session_->set_budget(after);
+    }
+  } catch (const Error& error) {
+    state_.tell(MessageKind::error, error.what());
+  }
+}
+
+}  // namespace meander

@@ -1,0 +1,108 @@
+// What the pointer does over the picture.
+#include <algorithm>
+#include <cmath>
+
+#include "app/previewer.h"
+#include "scene/camera_moves.h"
+#include "scene/light_rigs.h"
+#include "scene/object_measures.h"
+#include "ui/text.h"
+
+namespace meander {
+namespace {
+
+constexpr double kTurn = 180;  // degrees of light for a drag over the picture's height
+
+}  // namespace
+
+PictureArea Previewer::picture_area() const {
+  PictureArea area{layout_.image.x, layout_.image.y, layout_.image.width, std::max(film_area_.height, 1.0f)};
+  area.blocked = interface_.wants_mouse();
+  area.rectangle_tool = state_.look.selecting;
+  if (state_.look.comparison == Comparison::wipe)
+    area.wipe_x = film_area_.x + state_.look.wipe * film_area_.width;
+  return area;
+}
+
+void Previewer::drag_camera(const CameraDrag& drag) {
+  const Camera& camera = state_.scene->camera;
+  SceneDocument document = state_.history.now();
+  if (drag.kind == DragKind::orbit) document.set_camera(orbit(camera, drag.dx, drag.dy));
+  if (drag.kind == DragKind::pan) document.set_camera(pan(camera, drag.dx, drag.dy));
+  if (drag.kind == DragKind::dolly) document.set_camera(dolly(camera, -10 * drag.dy));
+  state_.change(std::move(document));
+}
+
+void Previewer::drag_light(const LightDrag& drag) {
+  SceneDocument document = state_.history.now();
+  if (drag.environment) {
+    const EnvironmentDescription environment = document.environment();
+    if (!environment.sky && environment.image.empty()) return;
+    double turned = std::fmod(environment.rotation + kTurn * drag.dx, 360);
+    if (turned < 0) turned += 360;
+    document.apply(edit_text("environment.rotation", turned));
+  } else {
+    const auto& lights = state_.scene->lights;
+    if (lights.empty()) return;
+    auto key =
+        std::find_if(lights.begin(), lights.end(), [](const Light& light) { return light.name == "key"; });
+    if (key == lights.end()) key = lights.begin();
+    const Bounds bounds = subject_bounds(*state_.scene);
+    document.set_light(
+        key->name, orbit_light(*key, 0.5 * (bounds.low + bounds.high), kTurn * drag.dx, -kTurn * drag.dy));
+  }
+  state_.change(std::move(document));
+}
+
+void Previewer::drag_rectangle(const RectangleDrag& drag) {
+  const FilmSize& film = state_.scene->film;
+  const auto pixel = [](double at, double from, double extent, int most) {
+    return std::clamp((at - from) / extent * most, 0.0, static_cast<double>(most));
+  };
+  const double x0 = pixel(std::min(drag.x0, drag.x1), film_area_.x, film_area_.width, film.width);
+  const double x1 = pixel(std::max(drag.x0, drag.x1), film_area_.x, film_area_.width, film.width);
+  const double y0 = pixel(std::min(drag.y0, drag.y1), film_area_.y, film_area_.height, film.height);
+  const double y1 = pixel(std::max(drag.y0, drag.y1), film_area_.y, film_area_.height, film.height);
+  const PixelBox box{static_cast<int>(x0), static_cast<int>(y0), static_cast<int>(std::ceil(x1)),
+                     static_cast<int>(std::ceil(y1))};
+  if (box.x1 - box.x0 >= 2 && box.y1 - box.y0 >= 2) state_.look.region = box;
+}
+
+void Previewer::move_picture(const PictureMove& move) {
+  if (const auto* camera = std::get_if<CameraDrag>(&move)) return drag_camera(*camera);
+  if (const auto* light = std::get_if<LightDrag>(&move)) return drag_light(*light);
+  if (const auto* rectangle = std::get_if<RectangleDrag>(&move)) return drag_rectangle(*rectangle);
+  if (const auto* wipe = std::get_if<WipeDrag>(&move)) {
+    state_.look.wipe =
+        std::clamp(static_cast<float>((wipe->x - film_area_.x) / film_area_.width), 0.0f, 1.0f);
+    return;
+  }
+  if (const auto* wheel = std::get_if<WheelDolly>(&move)) {
+    SceneDocument document = state_.history.now();
+    document.set_camera(dolly(state_.scene->camera, wheel->steps));
+    return state_.change(std::move(document));
+  }
+  if (std::holds_alternative<GestureBegin>(move)) {
+    gesture_ = true;
+    state_.history.begin_gesture();
+  }
+  if (std::holds_alternative<GestureEnd>(move)) {
+    gesture_ = false;
+    state_.history.end_gesture();
+    // One rectangle was asked for; the tool is put away again.
+    if (state_.look.region) state_.look.selecting = false;
+  }
+}
+
+std::optional<PointedPixel> Previewer::pointed() const {
+  if (interface_.wants_mouse() || film_area_.width <= 0) return std::nullopt;
+  const auto x = static_cast<float>(navigation_.x);
+  const auto y = static_cast<float>(navigation_.y);
+  if (!contains(film_area_, x, y) || !contains(layout_.image, x, y)) return std::nullopt;
+  const FilmSize& film = state_.scene->film;
+  return PointedPixel{
+      static_cast<int>((x - film_area_.x) / film_area_.width * static_cast<float>(film.width)),
+      static_cast<int>((y - film_area_.y) / film_area_.height * static_cast<float>(film.height))};
+}
+
+}  // namespace meander
