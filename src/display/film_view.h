@@ -74,6 +74,11 @@ class FilmView {
   void draw_compared(const FilmTextures& a, const FilmTextures& b, const Compared& how,
                      const ViewOptions& options, const Stage& stage);
 
+  /// Has the driver make ready what it needs to draw `film` so at any size, by drawing single pixels out of
+  /// sight: a software rasteriser takes tens of milliseconds when it meets a shader first. For a moment when
+  /// nobody waits.
+  void prepare(const FilmTextures& film, const ViewOptions& options);
+
   /// Compiles the shaders anew from their files. Error (runtime) with the file and the driver's log; the old
   /// ones go on then.
   void reload();
