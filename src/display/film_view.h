@@ -62,7 +62,7 @@ class FilmView {
   /// not compile.
   explicit FilmView(const Functions& gl);
 
-  /// Draws `film` (not empty) into the bound framebuffer, whose viewport is of the stage's size. Values are
+  /// Draws `film` (not empty) into the bound framebuffer, which is of the stage's size. Values are
   /// multiplied by 2^exposure, go through the tone curve, are clamped to [0, 1], sRGB-encoded (IEC 61966-2-1)
   /// and rounded to 8 bits; NaN shows as 0, +infinity as 1. A view whose planes are not there is drawn as the
   /// image. Where a film pixel covers n x n whole pixels it has one colour; else values are interpolated, or
