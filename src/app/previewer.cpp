@@ -7,6 +7,7 @@
 #include "app/preview_commands.h"
 #include "core/error.h"
 #include "display/shaders.h"
+#include "gl/state.h"
 #include "ui/draw.h"
 
 namespace meander {
@@ -16,6 +17,7 @@ constexpr double kWatchSeconds = 0.4;    // between two looks at the files
 constexpr double kRefineSeconds = 0.15;  // a held drag that rests this long is refined
 constexpr double kTickSeconds = 0.1;     // the status line's pace while the session works
 constexpr double kMessageSeconds = 6;
+constexpr float kBackdrop = 0.105f;  // around the picture
 constexpr int kSettleFrames = 3;  // Dear ImGui needs some frames to come to rest
 
 std::unique_ptr<Session> make_session(const PreviewSettings& settings) {
@@ -244,8 +246,7 @@ void Previewer::draw(const PreviewSurface& surface) {
   const FilmPlacement film = place_film(surface);
   film_area_ = {film.x / surface.scale, film.y / surface.scale, film.width / surface.scale,
                 film.height / surface.scale};
-  gl_->clear_color(0.105f, 0.105f, 0.105f, 1);
-  gl_->clear(GL_COLOR_BUFFER_BIT);
+  clear(*gl_, kBackdrop);
   const Area& image = layout_.image;
   const Region clip{static_cast<int>(image.x * surface.scale), static_cast<int>(image.y * surface.scale),
                     static_cast<int>(image.width * surface.scale),

@@ -166,6 +166,19 @@ void FilmView::draw_film(const FilmTextures& film, const ViewOptions& options, c
   fill(begin(film, variant, stage), options, stage);
 }
 
+void FilmView::prepare(const FilmTextures& film, const ViewOptions& options) {
+  const auto target = static_cast<GLuint>(integer(*gl_, GL_DRAW_FRAMEBUFFER_BINDING));
+  shown_.reset();
+  if (!picture_) picture_.emplace(*gl_, 1, 1);
+  picture_->bind(1, 1);
+  for (const float zoom : {1.0f, 1.5f, 0.9f}) {  // one for each filter
+    const FilmPlacement placement{0, 0, zoom * static_cast<float>(film.width()),
+                                  zoom * static_cast<float>(film.height())};
+    draw_film(film, options, {placement, 1, 1, {}});
+  }
+  gl_->bind_framebuffer(GL_FRAMEBUFFER, target);
+}
+
 void FilmView::draw_difference(const FilmTextures& a, const FilmTextures& b, const ViewOptions& options,
                                const Stage& stage) {
   const Variant variant{.tone = static_cast<int>(options.tone),

@@ -62,7 +62,7 @@ class FilmView {
   /// not compile.
   explicit FilmView(const Functions& gl);
 
-  /// Draws `film` (not empty) into the bound framebuffer, whose viewport is of the stage's size. Values are
+  /// Draws `film` (not empty) into the bound framebuffer, which is of the stage's size. Values are
   /// multiplied by 2^exposure, go through the tone curve, are clamped to [0, 1], sRGB-encoded (IEC 61966-2-1)
   /// and rounded to 8 bits; NaN shows as 0, +infinity as 1. A view whose planes are not there is drawn as the
   /// image. Where a film pixel covers n x n whole pixels it has one colour; else values are interpolated, or
@@ -73,6 +73,11 @@ class FilmView {
   /// The same for two films, of any sizes, stretched over the same rectangle.
   void draw_compared(const FilmTextures& a, const FilmTextures& b, const Compared& how,
                      const ViewOptions& options, const Stage& stage);
+
+  /// Has the driver make ready what it needs to draw `film` so at any size, by drawing single pixels out of
+  /// sight: a software rasteriser takes tens of milliseconds when it meets a shader first. For a moment when
+  /// nobody waits.
+  void prepare(const FilmTextures& film, const ViewOptions& options);
 
   /// Compiles the shaders anew from their files. Error (runtime) with the file and the driver's log; the old
   /// ones go on then.

@@ -81,6 +81,7 @@ void* InterfaceView::texture_id(const Picture& picture) {
 void InterfaceView::begin(const ImDrawData& data, int width, int height) const {
   const Functions& gl = *gl_;
   reset_state(gl);
+  gl.viewport(0, 0, width, height);
   gl.enable(GL_BLEND);
   gl.blend_equation(GL_FUNC_ADD);
   gl.blend_func_separate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

@@ -24,8 +24,8 @@ class InterfaceView {
   /// The ImTextureID by which vertex lists name a picture. The picture must live until they are drawn.
   [[nodiscard]] static void* texture_id(const Picture& picture);
 
-  /// Draws over what is in the bound framebuffer, `width` x `height` pixels, which the viewport must cover;
-  /// points become pixels by the data's own framebuffer scale. Colours are display-encoded already.
+  /// Draws over what is in the bound framebuffer, all of its `width` x `height` pixels; points become pixels
+  /// by the data's own framebuffer scale. Colours are display-encoded already.
   void draw(const ImDrawData& data, int width, int height) const;
 
   /// Compiles the shaders anew from their files. Error (runtime) with the file and the driver's log; the old

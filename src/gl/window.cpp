@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "gl/display_loss.h"
+#include "gl/pinned_driver.h"
 
 namespace meander {
 namespace {
@@ -224,6 +225,7 @@ Window::Window(const Extent& size, const std::string& title) : state_(std::make_
   glfwMakeContextCurrent(window);
   glfwSwapInterval(1);
   state_->functions = load_functions(entry_point);
+  pin_drivers();
   state_->reset_status = reset_status_of_context();
 }
 

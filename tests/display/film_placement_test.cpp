@@ -172,6 +172,23 @@ TEST_CASE("new textures in the place of old ones are not taken for them") {
   }
 }
 
+TEST_CASE("preparing draws nothing, and changes nothing that is drawn") {
+  Easel easel(8, 8);
+  const Image film = gradient(8, 8, 1);
+  easel.a.show(film, 1);
+  for (int round = 0; round < 2; ++round) {
+    clear(easel.context.functions(), 0.2f);
+    easel.view.prepare(easel.a, {});
+    CHECK(wrong_pixels(
+              easel.read(), [](int, int) { return grey(51); }, 0) == 0);
+    easel.target.bind(8, 8);
+    easel.view.draw(easel.a, {}, easel.stage(at_origin(8, 8)));
+    CHECK(wrong_pixels(
+              easel.read(), [&](int x, int y) { return levels_of(film.at(x, y)); }, 1) == 0);
+  }
+  CHECK(easel.context.functions().get_error() == GL_NO_ERROR);
+}
+
 TEST_CASE("the shaders are kept when their new text does not compile, and the film goes on") {
   Easel easel(8, 8);
   easel.a.show(gradient(8, 8, 1), 1);

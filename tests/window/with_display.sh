@@ -1,21 +1,19 @@
 #!/usr/bin/env bash
 # Runs a command on an X display of its own, and passes on its exit code.
-#   with_display.sh [-s WIDTHxHEIGHT] [-d DPI] COMMAND…
+#   with_display.sh [-s WIDTHxHEIGHT] COMMAND…
 # The command sees the environment as it was, a DISPLAY, and in MEANDER_XVFB_PID the server's process id, for a test
 # that ends it early. Without Xvfb the exit code is 77.
 set -euo pipefail
 
 own_screen=1920x1200
-own_dpi=96
-while getopts s:d: own_option; do
+while getopts s: own_option; do
   case $own_option in
     s) own_screen=$OPTARG ;;
-    d) own_dpi=$OPTARG ;;
     *) exit 2 ;;
   esac
 done
 shift $((OPTIND - 1))
-(($# > 0)) || { printf 'usage: with_display.sh [-s WIDTHxHEIGHT] [-d DPI] COMMAND...\n' >&2; exit 2; }
+(($# > 0)) || { printf 'usage: with_display.sh [-s WIDTHxHEIGHT] COMMAND...\n' >&2; exit 2; }
 command -v Xvfb >/dev/null || { printf 'with_display.sh: no Xvfb here\n' >&2; exit 77; }
 
 own_folder=$(mktemp -d)
@@ -27,7 +25,7 @@ finish() {
 trap finish EXIT
 
 # It picks a number that is free and writes it when it listens. It stays as it is when the last window closes.
-Xvfb -displayfd 3 -screen 0 "${own_screen}x24" -dpi "$own_dpi" -nolisten tcp -noreset +extension GLX 3>"$own_folder/number" \
+Xvfb -displayfd 3 -screen 0 "${own_screen}x24" -nolisten tcp -noreset +extension GLX 3>"$own_folder/number" \
   >"$own_folder/log" 2>&1 &
 own_server=$!
 for ((i = 0; i < 300; i++)); do
