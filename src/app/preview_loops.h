@@ -7,6 +7,7 @@
 
 #include "app/previewer.h"
 #include "app/script.h"
+#include "gl/extent.h"
 #include "math/image.h"
 
 namespace meander {

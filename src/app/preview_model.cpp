@@ -118,7 +118,7 @@ RenderModel render_model(const PreviewState& state) {
 }
 
 // A box at 100 % in the pixels of a frame's planes.
-PixelRectangle on_planes(const PixelBox& box, const Frame& frame, const FilmSize& film) {
+PixelRectangle on_planes(const PixelBox& box, const LiveFrame& frame, const FilmSize& film) {
   const double x = static_cast<double>(frame.film_width) / film.width / frame.scale;
   const double y = static_cast<double>(frame.film_height) / film.height / frame.scale;
   const int dx = frame.area.x0 / frame.scale;
@@ -127,7 +127,7 @@ PixelRectangle on_planes(const PixelBox& box, const Frame& frame, const FilmSize
           static_cast<int>(std::ceil(box.x1 * x)) - dx, static_cast<int>(std::ceil(box.y1 * y)) - dy};
 }
 
-std::optional<RectangleReading> rectangle_reading(const PreviewState& state, const Frame& frame) {
+std::optional<RectangleReading> rectangle_reading(const PreviewState& state, const LiveFrame& frame) {
   if (!state.look.region) return std::nullopt;
   const PixelRectangle area = on_planes(*state.look.region, frame, state.scene->film);
   const RectangleMean mean = rectangle_mean(frame.planes.radiance, frame.planes.error, area);
@@ -241,7 +241,7 @@ OverlayModel overlay_model(const PreviewState& state, const ModelInputs& inputs,
 
 }  // namespace
 
-std::optional<PixelReading> read_pixel(const Frame& frame, const FilmSize& film, const PointedPixel& at,
+std::optional<PixelReading> read_pixel(const LiveFrame& frame, const FilmSize& film, const PointedPixel& at,
                                        double millimetres_per_unit) {
   const PixelRectangle cell = on_planes({at.x, at.y, at.x + 1, at.y + 1}, frame, film);
   const FilmPlanes& planes = frame.planes;

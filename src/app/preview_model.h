@@ -20,13 +20,12 @@ struct ModelInputs {
   Area film;                     // the picture's place in the window, points
   std::optional<PointedPixel> pointed;
   bool paused = false;
-  std::string error;  // what the session stumbled over, empty if nothing
 };
 
 [[nodiscard]] UiModel make_model(const PreviewState& state, const ModelInputs& inputs);
 
 /// The pixel of the newest frame under a film pixel at 100 %; nothing where it has none.
-[[nodiscard]] std::optional<PixelReading> read_pixel(const Frame& frame, const FilmSize& film,
+[[nodiscard]] std::optional<PixelReading> read_pixel(const LiveFrame& frame, const FilmSize& film,
                                                      const PointedPixel& at, double millimetres_per_unit);
 
 }  // namespace meander

@@ -11,13 +11,13 @@ namespace {
 
 constexpr int kThumbnailHeight = 90;
 
-bool covers_film(const Frame& frame) {
+bool covers_film(const LiveFrame& frame) {
   return frame.area.x0 <= 0 && frame.area.y0 <= 0 && frame.area.x1 >= frame.film_width &&
          frame.area.y1 >= frame.film_height;
 }
 
 // A part of the film's picture, as a placement of its own.
-FilmPlacement part_of(const FilmPlacement& film, const Frame& frame) {
+FilmPlacement part_of(const FilmPlacement& film, const LiveFrame& frame) {
   const float x = film.width / static_cast<float>(frame.film_width);
   const float y = film.height / static_cast<float>(frame.film_height);
   const auto width = static_cast<float>(frame.area.x1 - frame.area.x0);
@@ -76,7 +76,7 @@ double weighted_scatterings(const FilmPlanes& planes) {
 PreviewPictures::PreviewPictures(const Functions& gl)
     : gl_(&gl), view_(gl), part_view_(gl), a_(gl), b_(gl), part_slot_(gl) {}
 
-bool PreviewPictures::take(const std::shared_ptr<const Frame>& frame) {
+bool PreviewPictures::take(const std::shared_ptr<const LiveFrame>& frame) {
   if (!frame || frame == live_ || frame == part_) return false;
   mean_scatterings_ = weighted_scatterings(frame->planes);
   if (covers_film(*frame)) {

@@ -19,7 +19,7 @@ namespace meander {
 struct Snapshot {
   std::string label;
   std::optional<SceneDocument> document;  // none for a file
-  std::shared_ptr<const Frame> frame;     // none for a file
+  std::shared_ptr<const LiveFrame> frame;     // none for a file
   Image linear;                           // of a file: three channels or more
   std::uint64_t version = 0;              // names what it holds to textures
   std::unique_ptr<Picture> thumbnail;
@@ -32,12 +32,12 @@ class PreviewPictures {
 
   /// Takes the newest frame: the live picture, or the part of it that a region renders. True when it is
   /// another than before.
-  bool take(const std::shared_ptr<const Frame>& frame);
+  bool take(const std::shared_ptr<const LiveFrame>& frame);
   /// The newest frame that covers the whole film, null before the first; and the one of a region after it.
-  [[nodiscard]] const std::shared_ptr<const Frame>& live() const noexcept { return live_; }
-  [[nodiscard]] const std::shared_ptr<const Frame>& part() const noexcept { return part_; }
+  [[nodiscard]] const std::shared_ptr<const LiveFrame>& live() const noexcept { return live_; }
+  [[nodiscard]] const std::shared_ptr<const LiveFrame>& part() const noexcept { return part_; }
   /// The one of these that is newer.
-  [[nodiscard]] const std::shared_ptr<const Frame>& newest() const noexcept { return part_ ? part_ : live_; }
+  [[nodiscard]] const std::shared_ptr<const LiveFrame>& newest() const noexcept { return part_ ? part_ : live_; }
 
   /// Of the newest frame: the mean number of scatterings over its pixels, weighed by their light.
   [[nodiscard]] double mean_scatterings() const noexcept { return mean_scatterings_; }
@@ -77,8 +77,8 @@ class PreviewPictures {
   Slot a_;
   Slot b_;
   Slot part_slot_;
-  std::shared_ptr<const Frame> live_;
-  std::shared_ptr<const Frame> part_;
+  std::shared_ptr<const LiveFrame> live_;
+  std::shared_ptr<const LiveFrame> part_;
   std::uint64_t live_version_ = 0;
   std::uint64_t part_version_ = 0;
   std::uint64_t next_version_ = 1;
