@@ -138,8 +138,9 @@ Real size_of(const DMat3& map) noexcept {
 
 }  // namespace
 
-Geometry::Geometry(const Scene& scene, int threads) : device_(make_device(threads)) {
-  for (const Object& object : scene.objects) bodies_.push_back(make_body(object, scene));
+Geometry::Geometry(const Scene& scene, int threads, const Geometry* previous)
+    : threads_(threads), device_(previous ? previous->device_ : nullptr) {
+  for (const Object& object : scene.objects) bodies_.push_back(make_body(object, scene, previous));
   for (Body& body : bodies_) body.holds_light = body.matched && holds_light(body, scene);
 }
 
@@ -158,7 +159,27 @@ bool Geometry::holds_light(const Body& body, const Scene& scene) noexcept {
   return false;
 }
 
-Geometry::Body Geometry::make_body(const Object& object, const Scene& scene) const {
+Geometry::SharedMesh Geometry::find_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map) const {
+  for (const Body& body : bodies_) {
+    const auto* placed = std::get_if<SharedMesh>(&body.shape);
+    if (!placed || (*placed)->map != map) continue;
+    // By owner: another mesh at the address of one that is gone is another mesh.
+    const std::weak_ptr<const Mesh>& source = (*placed)->source;
+    if (!source.owner_before(mesh) && !mesh.owner_before(source) && source.lock() == mesh) return *placed;
+  }
+  return nullptr;
+}
+
+Geometry::SharedMesh Geometry::make_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map,
+                                         const Geometry* previous) {
+  if (SharedMesh known = find_mesh(mesh, map)) return known;
+  if (previous)
+    if (SharedMesh known = previous->find_mesh(mesh, map)) return known;
+  if (!device_) device_ = make_device(threads_);
+  return std::make_shared<const PlacedMesh>(device_, mesh, map);
+}
+
+Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, const Geometry* previous) {
   const DMat3 map = linear_part(object.transform);
   const auto* translucent = std::get_if<TranslucentMaterial>(&scene.materials[object.material].kind);
   const bool closed = translucent != nullptr;
@@ -171,15 +192,15 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene) con
     return {BoxBody(map), origin, size_of(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<SlabShape>(object.shape))
     return {SlabBody(map), origin, size_of(map), closed, matched, false, sigma_t};
-  DVec3 center(0);
-  MeshBody mesh(device_.get(), *std::get<std::shared_ptr<const Mesh>>(object.shape), map, center);
-  const Real size = largest(mesh.half_size());
-  return {std::move(mesh), origin + center, size, closed, matched, false, sigma_t};
+  SharedMesh mesh = make_mesh(std::get<std::shared_ptr<const Mesh>>(object.shape), map, previous);
+  const Real size = largest(mesh->body.half_size());
+  const DVec3 center = origin + mesh->center;
+  return {std::move(mesh), center, size, closed, matched, false, sigma_t};
 }
 
 Real Geometry::offset(std::size_t object, const Vec3& point) const noexcept {
   const Body& body = bodies_[object];
-  if (std::holds_alternative<MeshBody>(body.shape)) return body.size * Real(0x1p-20);
+  if (std::holds_alternative<SharedMesh>(body.shape)) return body.size * Real(0x1p-20);
   return std::max(largest(glm::abs(point)), body.size) * Real(0x1p-22);
 }
 
@@ -196,7 +217,7 @@ auto Geometry::approach(std::size_t object, const Ray& ray, const F& f) const no
     seen.slack = 2 * (double{glm::length(ray.departure.offset)} + rounding);
     seen.origin -= seen.slack * DVec3(ray.direction);
   }
-  return std::visit([&](const auto& shape) { return f(shape, seen, placement); }, body.shape);
+  return std::visit([&](const auto& shape) { return f(world_of(shape), seen, placement); }, body.shape);
 }
 
 std::optional<SurfaceHit> Geometry::hit_within(std::size_t object, const Ray& ray,

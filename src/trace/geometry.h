@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <variant>
 
 #include "scene/analytic_shapes.h"
@@ -14,9 +15,10 @@ namespace meander {
 
 class Geometry {
  public:
-  /// Builds what tracing needs, on at most `threads` threads; keeps nothing of the scene. Errors:
-  /// Error(runtime).
-  Geometry(const Scene& scene, int threads);
+  /// Builds what tracing needs, on at most `threads` threads; keeps nothing of the scene. Meshes that stand
+  /// in `previous` under the same linear map are shared with it, its Embree device too; it may be destroyed
+  /// at any time. Errors: Error(runtime).
+  Geometry(const Scene& scene, int threads, const Geometry* previous = nullptr);
 
   /// The first surface along a ray, from either side.
   [[nodiscard]] std::optional<SurfaceHit> closest_hit(const Ray& ray) const noexcept;
@@ -42,18 +44,31 @@ class Geometry {
 
   /// Whether a step of a walk in the object costs a ray.
   [[nodiscard]] bool traces_rays(std::size_t object) const noexcept {
-    return std::holds_alternative<MeshBody>(bodies_[object].shape);
+    return std::holds_alternative<SharedMesh>(bodies_[object].shape);
   }
 
   /// f(world) with the object's own World.
   template <class F>
   [[nodiscard]] auto with_body(std::size_t object, F&& f) const noexcept {
-    return std::visit(std::forward<F>(f), bodies_[object].shape);
+    return std::visit([&](const auto& shape) { return f(world_of(shape)); }, bodies_[object].shape);
   }
 
  private:
+  // A mesh on its device, and what it was made of, by which another geometry knows it again.
+  struct PlacedMesh {
+    PlacedMesh(std::shared_ptr<RTCDeviceTy> on, const std::shared_ptr<const Mesh>& mesh, const DMat3& linear)
+        : device(std::move(on)), source(mesh), map(linear), body(device.get(), *mesh, map, center) {}
+
+    std::shared_ptr<RTCDeviceTy> device;
+    std::weak_ptr<const Mesh> source;
+    DMat3 map;
+    DVec3 center{0};
+    MeshBody body;
+  };
+  using SharedMesh = std::shared_ptr<const PlacedMesh>;
+
   struct Body {
-    std::variant<SphereBody, BoxBody, SlabBody, MeshBody> shape;
+    std::variant<SphereBody, BoxBody, SlabBody, SharedMesh> shape;
     DVec3 center;
     Real size;
     bool closed;   // it holds a medium: its surface has an inside
@@ -62,14 +77,24 @@ class Geometry {
     Rgb sigma_t;
   };
 
-  [[nodiscard]] Body make_body(const Object& object, const Scene& scene) const;
+  template <class Shape>
+  [[nodiscard]] static const Shape& world_of(const Shape& shape) noexcept {
+    return shape;
+  }
+  [[nodiscard]] static const MeshBody& world_of(const SharedMesh& mesh) noexcept { return mesh->body; }
+
+  [[nodiscard]] Body make_body(const Object& object, const Scene& scene, const Geometry* previous);
+  [[nodiscard]] SharedMesh make_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map,
+                                     const Geometry* previous);
+  [[nodiscard]] SharedMesh find_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map) const;
   [[nodiscard]] static bool holds_light(const Body& body, const Scene& scene) noexcept;
   [[nodiscard]] std::optional<SurfaceHit> hit_within(std::size_t object, const Ray& ray,
                                                      double distance) const noexcept;
   template <class F>
   [[nodiscard]] auto approach(std::size_t object, const Ray& ray, const F& f) const noexcept;
 
-  Device device_;
+  int threads_;
+  std::shared_ptr<RTCDeviceTy> device_;  // made with the first mesh that needs one
   std::vector<Body> bodies_;
 };
 

@@ -175,3 +175,48 @@ TEST_CASE("bodies that overlap or nest are named, bodies that touch or stand apa
   CHECK(count(BoxShape{}, {0, 2, 0}, 1) == 0);
   CHECK(count(kKnot, {0, 3, 0}, 1) == 0);
 }
+
+TEST_CASE(
+    "an edit shares the hierarchies of the meshes that stand as they stood, and outlives the geometry "
+    "before") {
+  Scene scene = one_object(kKnot, {}, Boundary::matched);
+  scene.objects.push_back({"twin", kKnot, 0, {{4, 0, 0}, {}, DVec3(1)}});
+  auto before = std::make_unique<const Geometry>(scene, 1);
+  const auto body_of = [](const Geometry& geometry, std::size_t object) {
+    return geometry.with_body(object, [](const auto& world) { return static_cast<const void*>(&world); });
+  };
+  const void* const body = body_of(*before, 0);
+  CHECK(body_of(*before, 1) == body);
+
+  Scene edited = scene;
+  edited.objects[0].transform.translate = {0, 3, 0};             // a move is no new hierarchy
+  edited.objects[1].transform.rotate = {0, 30, 0};               // a turn is one
+  edited.materials[0] = translucent(Boundary::diffuse, Rgb(5));  // and the flags are the new scene's
+  const Geometry after(edited, 1, before.get());
+  const Geometry fresh(edited, 1);
+  CHECK(body_of(after, 0) == body);
+  CHECK(body_of(after, 1) != body);
+  before.reset();
+  int hits = 0;
+  for (std::uint32_t i = 0; i < 2000; ++i) {
+    Random random = stream(9, 0, i);
+    const double x = 7 * random.next() - 1.5;
+    const double y = 5.5 * random.next() - 1.25;
+    const Ray ray{{x, y, 5}, {0, 0, -1}};
+    const auto a = after.closest_hit(ray);
+    const auto b = fresh.closest_hit(ray);
+    REQUIRE(a.has_value() == b.has_value());
+    CHECK(after.transmittance(ray, 10) == fresh.transmittance(ray, 10));
+    if (!a) continue;
+    ++hits;
+    CHECK(a->object == b->object);
+    CHECK(a->distance == b->distance);
+    CHECK(a->point == b->point);
+    CHECK(a->shading_normal == b->shading_normal);
+  }
+  CHECK(hits > 100);
+
+  edited.objects[0].shape = std::make_shared<const Mesh>(*kKnot);  // an equal mesh, but another one
+  const Geometry replaced(edited, 1, &after);
+  CHECK(body_of(replaced, 0) != body);
+}
