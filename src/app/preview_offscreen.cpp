@@ -60,6 +60,7 @@ Image8 run_offscreen(const SceneDocument& document, const PreviewOptions& option
   ScriptStage stage;
   stage.apply = [&](const std::string& edit) { previewer.apply(edit); };
   stage.feed = [&](const InputEvent& event) { previewer.feed(event); };
+  stage.shows_edits = [&] { return previewer.first_image_seconds().has_value(); };
   stage.spp = [&] { return previewer.spp(); };
   stage.write_snapshot = [&](const std::string& path) { write_png(path, easel.read(), {}); };
   stage.resize = [&](int width, int height) { easel.resize(width, height); };

@@ -62,6 +62,7 @@ ScriptStage stage_of(Previewer& previewer, Window& window, bool& quit) {
   ScriptStage stage;
   stage.apply = [&](const std::string& edit) { previewer.apply(edit); };
   stage.feed = [&](const InputEvent& event) { previewer.feed(event); };
+  stage.shows_edits = [&] { return previewer.first_image_seconds().has_value(); };
   stage.spp = [&] { return previewer.spp(); };
   stage.write_snapshot = [&](const std::string& path) {
     write_window(previewer, window.functions(), shape_of(window, 1.0 / 60), path);

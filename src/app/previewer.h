@@ -58,6 +58,7 @@ class Previewer {
   /// Seconds from asking to the first picture of the newest generation; nothing before it is there.
   [[nodiscard]] std::optional<double> first_image_seconds() const;
   [[nodiscard]] const PreviewState& state() const noexcept { return state_; }
+  [[nodiscard]] const PreviewPictures& pictures() const noexcept { return pictures_; }
   /// The window's title.
   [[nodiscard]] std::string title() const;
 

@@ -12,9 +12,9 @@
 namespace meander {
 namespace {
 
-constexpr std::array<std::string_view, 15> kVerbs{"set",   "wait-spp", "wait",  "key",      "move",
+constexpr std::array<std::string_view, 16> kVerbs{"set",   "wait-spp", "wait",  "key",      "move",
                                                   "press", "release",  "click", "drag",     "scroll",
-                                                  "text",  "drop",     "size",  "snapshot", "quit"};
+                                                  "text",  "drop",     "size",  "snapshot", "quit", "wait-image"};
 constexpr std::array<std::string_view, 3> kButtons{"left", "right", "middle"};
 constexpr int kDragSteps = 12;
 
@@ -215,6 +215,7 @@ Steps read_command(LineReader& line) {
   if (verb == "text") return read_text(line);
   if (verb == "snapshot") return {read_snapshot(line)};
   if (verb == "quit") return {QuitStep{}};
+  if (verb == "wait-image") return {WaitImageStep{}};
   if (verb == "scroll") {
     InputEvent event;
     event.kind = InputKind::scroll;

@@ -16,6 +16,7 @@ struct SetStep {
 struct WaitSppStep {
   std::uint64_t spp;  // until the picture has at least this many samples a pixel
 };
+struct WaitImageStep {};  // until the picture shows all edits so far, however coarsely
 struct WaitStep {
   double seconds;
 };
@@ -31,7 +32,7 @@ struct SizeStep {
 };
 struct QuitStep {};
 
-using ScriptStep = std::variant<SetStep, WaitSppStep, WaitStep, EventStep, SnapshotStep, SizeStep, QuitStep>;
+using ScriptStep = std::variant<SetStep, WaitSppStep, WaitImageStep, WaitStep, EventStep, SnapshotStep, SizeStep, QuitStep>;
 
 /// One step and the line it stands in, for messages.
 struct ScriptLine {
@@ -41,6 +42,7 @@ struct ScriptLine {
 
 /// One command a line, `#` starts a comment:
 ///   set PATH=VALUE         an edit, as --set
+///   wait-image             until the picture shows all edits so far, however coarsely
 ///   wait-spp N | wait S    until the picture has N samples a pixel; S seconds
 ///   key CHORD              such as `F`, `Shift+E`, `Ctrl+Z`, `Space`; pressed and released
 ///   move X Y               the mouse, in window points from the top left

@@ -15,6 +15,8 @@ auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, d
   }
   if (const auto* spp = std::get_if<WaitSppStep>(&step))
     return stage.spp() >= spp->spp ? Outcome::taken : Outcome::waiting;
+  if (std::holds_alternative<WaitImageStep>(step))
+    return stage.shows_edits() ? Outcome::taken : Outcome::waiting;
   if (const auto* wait = std::get_if<WaitStep>(&step)) {
     if (!wait_until_) wait_until_ = now + wait->seconds;
     if (now < *wait_until_) return Outcome::waiting;
@@ -47,7 +49,7 @@ void ScriptPlayer::play(const ScriptStage& stage, double now) {
     }
     if (outcome == Outcome::waiting) return;
     ++next_;
-    if (!std::holds_alternative<WaitSppStep>(line.step)) frames_ = 0;
+    frames_ = 0;
     if (outcome == Outcome::taken_frame) return;
   }
 }
