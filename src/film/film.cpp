@@ -34,6 +34,33 @@ Image resolve(const Film& film) {
   return image;
 }
 
+void resolve_row(const Film& film, const Image* normals, int y, FilmPlanes& planes) noexcept {
+  assert(!normals || (normals->width == film.width && normals->height == film.height));
+  float* radiance = planes.radiance.at(0, y);
+  float* error = planes.error.at(0, y);
+  float* features = planes.features.at(0, y);
+  for (int x = 0; x < film.width; ++x, radiance += 4, error += 4, features += 4) {
+    const Pixel& pixel = film.at(x, y);
+    const std::array<double, 3> variance = pixel.variance_of_mean();
+    for (int c = 0; c < 3; ++c) {
+      radiance[c] = static_cast<float>(pixel.mean[c]);
+      error[c] = static_cast<float>(variance[c]);
+      features[1 + c] = normals ? normals->at(x, y)[c] : 0.0f;
+    }
+    const PathSums& paths = pixel.paths;
+    const bool lit = paths.luminance > 0;
+    radiance[3] = static_cast<float>(pixel.count);
+    error[3] = lit ? static_cast<float>(paths.order / paths.luminance) : 0.0f;
+    features[0] = lit ? static_cast<float>(paths.length / paths.luminance) : 0.0f;
+  }
+}
+
+FilmPlanes resolve_planes(const Film& film, const Image* normals) {
+  FilmPlanes planes{{film.width, film.height, 4}, {film.width, film.height, 4}, {film.width, film.height, 4}};
+  for (int y = 0; y < film.height; ++y) resolve_row(film, normals, y, planes);
+  return planes;
+}
+
 double relative_noise(const Film& film, const std::vector<std::uint8_t>& mask) {
   assert(mask.empty() || mask.size() == film.pixels.size());
   const bool every = std::all_of(mask.begin(), mask.end(), [](std::uint8_t m) { return m == 0; });

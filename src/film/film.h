@@ -6,16 +6,33 @@
 #include <cstdint>
 #include <vector>
 
+#include "film/film_planes.h"
 #include "math/image.h"
 #include "math/types.h"
 
 namespace meander {
 
-/// Welford's (1962) running mean and sum of squared deviations of the samples of one pixel, per channel.
+/// Sums over contributions of light: of its luminance, and of that times the number of scatterings and times
+/// the length inside media (scene units).
+struct PathSums {
+  double luminance = 0;
+  double order = 0;
+  double length = 0;
+
+  void operator+=(const PathSums& other) noexcept {
+    luminance += other.luminance;
+    order += other.order;
+    length += other.length;
+  }
+};
+
+/// Welford's (1962) running mean and sum of squared deviations of the samples of one pixel, per channel; and
+/// what paths its light took.
 struct Pixel {
   std::array<double, 3> mean{};
   std::array<double, 3> m2{};
   std::uint64_t count = 0;
+  PathSums paths;
 
   void add(const Rgb& value) noexcept;
   /// Variance of the mean, per channel; 0 below two samples.
@@ -37,6 +54,12 @@ struct Film {
 
 /// Six channels: R G B, then the variance of each mean.
 [[nodiscard]] Image resolve(const Film& film);
+
+/// What a display shows of a film. `normals` has the film's size and three channels; without it they are 0.
+[[nodiscard]] FilmPlanes resolve_planes(const Film& film, const Image* normals);
+
+/// Row y of resolve_planes, into planes of the film's size. Rows may be resolved at the same time.
+void resolve_row(const Film& film, const Image* normals, int y, FilmPlanes& planes) noexcept;
 
 /// sqrt(mean over channels and masked pixels of v / (m^2 + 1e-4)), v the variance of the pixel's mean m.
 /// `mask` has one entry a pixel, non-zero where it counts; an empty or all-zero mask counts every pixel.

@@ -7,7 +7,6 @@ namespace meander {
 
 namespace {
 
-constexpr double kLongestPass = 0.5;            // seconds: how long an edit or a viewer may have to wait
 constexpr std::uint64_t kLeastBelievedSpp = 8;  // below, the estimate of the noise is itself mostly noise
 
 /// `pass`, but at most `limit`, which may lie beyond the integers or be infinite, and at least 1.
@@ -27,14 +26,14 @@ double samples_to_error(const Progress& progress, double error) noexcept {
 
 }  // namespace
 
-std::uint64_t next_pass(const Progress& progress, const Budget& budget) noexcept {
+std::uint64_t next_pass(const Progress& progress, const Budget& budget, double longest) noexcept {
   if (budget.spp && progress.spp >= *budget.spp) return 0;
   if (progress.spp == 0) return 1;
   if (budget.error && progress.spp >= kLeastBelievedSpp && progress.noise <= *budget.error) return 0;
 
   const double rate = progress.seconds / static_cast<double>(progress.spp);
   std::uint64_t pass = progress.spp;
-  if (rate > 0) pass = limited(pass, std::floor(kLongestPass / rate));
+  if (rate > 0) pass = limited(pass, std::floor(longest / rate));
   if (budget.spp) pass = std::min(pass, *budget.spp - progress.spp);
   if (budget.error) pass = limited(pass, samples_to_error(progress, *budget.error));
   if (budget.seconds) {
@@ -48,5 +47,7 @@ std::uint64_t next_pass(const Progress& progress, const Budget& budget) noexcept
   }
   return pass;
 }
+
+double longest_live_pass(double seconds) noexcept { return std::clamp(seconds / 4, 0.1, kLongestPass); }
 
 }  // namespace meander

@@ -3,6 +3,8 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -24,9 +26,18 @@ void release(char*) {}
 void acquire(char*) {}
 #endif
 
+constexpr int kNicer = 10;
+
+// Makes the calling thread nicer than the process's first one. On Linux niceness is a thread's own.
+void yield_to_others() {
+  const int niceness = std::min(getpriority(PRIO_PROCESS, static_cast<id_t>(getpid())) + kNicer, 19);
+  if (getpriority(PRIO_PROCESS, 0) < niceness) setpriority(PRIO_PROCESS, 0, niceness);
+}
+
 }  // namespace
 
-void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& body) {
+void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& body,
+                  Priority priority) {
   namespace tbb = oneapi::tbb;
   const int used = std::min(threads, hardware_threads());  // TBB warns of more
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -40,6 +51,7 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
         tbb::blocked_range<std::size_t>(0, count, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
           acquire(&begun);
+          if (priority == Priority::background) yield_to_others();
           for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
           release(&ended);
         },

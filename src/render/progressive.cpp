@@ -3,10 +3,14 @@
 #include <cmath>
 
 #include "core/timer.h"
-#include "render/parallel.h"
+#include "math/color.h"
+#include "render/first_hits.h"
 
 namespace meander {
 namespace {
+
+// How many pixels of the job `count` pixels of the film touch.
+int scaled(int count, int scale) noexcept { return (count + scale - 1) / scale; }
 
 bool is_chromatic(const Scene& scene) {
   for (const Material& material : scene.materials)
@@ -14,6 +18,27 @@ bool is_chromatic(const Scene& scene) {
       if (!is_grey(translucent->medium.sigma_t)) return true;
   return false;
 }
+
+// Small images in small tiles, so that no thread is left waiting for another's last one.
+int tile_size(const Tile& area) noexcept {
+  const auto pixels = std::int64_t{area.x1 - area.x0} * (area.y1 - area.y0);
+  int size = kTileSize;
+  while (size > 4 && pixels < std::int64_t{64} * size * size) size /= 2;
+  return size;
+}
+
+// What one sample of a pixel finds: its radiance, and what paths the light took.
+struct SampleSink {
+  Rgb radiance{0};
+  PathSums paths;
+
+  void add(const Contribution& contribution) noexcept {
+    const Rgb value = contribution.value();
+    radiance += value;
+    const double weight = luminance(value);
+    paths += {weight, weight * contribution.order, weight * double{contribution.length}};
+  }
+};
 
 // What one tile adds to the statistics of a pass.
 struct TileResult {
@@ -28,9 +53,8 @@ struct Pass {
   const CameraRays& camera;
   Tile area;
   PathOptions options;
-  std::uint64_t first;  // samples that every pixel has already
   std::uint64_t samples;
-  const Film& before;
+  const Rendering& before;  // its film counts for nothing while it has no samples
   Film& after;
 
   [[nodiscard]] TileResult render_tile(const Tile& tile) const {
@@ -38,7 +62,7 @@ struct Pass {
     PathTracer<Geometry> tracer(*job.scene, *job.geometry, options);
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
-        Pixel pixel = before.at(x, y);
+        Pixel pixel = before.spp > 0 ? before.film.at(x, y) : Pixel{};
         if (!render_pixel(x, y, tracer, pixel, result)) return result;
         after.at(x, y) = pixel;
       }
@@ -50,25 +74,24 @@ struct Pass {
 
   [[nodiscard]] bool render_pixel(int x, int y, PathTracer<Geometry>& tracer, Pixel& pixel,
                                   TileResult& result) const {
-    const FilmSize size = job.scene->film;
     const int image_x = area.x0 + x;
     const int image_y = area.y0 + y;
-    const auto index = static_cast<std::uint32_t>(image_y) * static_cast<std::uint32_t>(size.width) +
+    const int stride = scaled(job.scene->film.width, job.scale);
+    const auto index = static_cast<std::uint32_t>(image_y) * static_cast<std::uint32_t>(stride) +
                        static_cast<std::uint32_t>(image_x);
     if (options.stop->load(std::memory_order_relaxed)) return false;
     for (std::uint64_t k = 0; k < samples; ++k) {
-      Random random = stream(job.seed, index, job.first_sample + static_cast<std::uint32_t>(first + k));
+      Random random = stream(job.seed, index, job.first_sample + static_cast<std::uint32_t>(before.spp + k));
       const double u = random.next();
       const double v = random.next();
-      RadianceSink sink;
-      const Ray ray = camera.at((image_x + u) / size.width, (image_y + v) / size.height);
-      if (!tracer.trace(ray, random, sink)) return false;
-      Rgb radiance = sink.radiance;
-      if (!std::isfinite(radiance.x + radiance.y + radiance.z)) {
+      SampleSink sink;
+      if (!tracer.trace(film_ray(job, camera, image_x + u, image_y + v), random, sink)) return false;
+      const bool finite = std::isfinite(sink.radiance.x + sink.radiance.y + sink.radiance.z);
+      pixel.add(finite ? sink.radiance : Rgb(0));
+      if (finite)
+        pixel.paths += sink.paths;
+      else
         ++result.non_finite;
-        radiance = Rgb(0);
-      }
-      pixel.add(radiance);
     }
     return true;
   }
@@ -76,8 +99,18 @@ struct Pass {
 
 }  // namespace
 
-Tile area_of(const Job& job) {
-  return job.crop.value_or(Tile{0, 0, job.scene->film.width, job.scene->film.height});
+Tile area_of(const Job& job) noexcept {
+  const Tile film = job.crop.value_or(Tile{0, 0, job.scene->film.width, job.scene->film.height});
+  return {film.x0 / job.scale, film.y0 / job.scale, scaled(film.x1, job.scale), scaled(film.y1, job.scale)};
+}
+
+CameraRays camera_of(const Job& job) noexcept {
+  return make_camera_rays(job.scene->camera, job.scene->film.width, job.scene->film.height);
+}
+
+Ray film_ray(const Job& job, const CameraRays& camera, double x, double y) noexcept {
+  const FilmSize& film = job.scene->film;
+  return camera.at(x * job.scale / film.width, y * job.scale / film.height);
 }
 
 std::uint64_t film_bytes(const Job& job) {
@@ -86,68 +119,49 @@ std::uint64_t film_bytes(const Job& job) {
          static_cast<std::uint64_t>(area.y1 - area.y0);
 }
 
-std::vector<std::uint8_t> object_mask(const Job& job, const std::atomic<bool>& stop) {
-  const Scene& scene = *job.scene;
-  const CameraRays camera = make_camera_rays(scene.camera, scene.film.width, scene.film.height);
-  const Tile area = area_of(job);
-  const auto shows_object = [&](double x, double y) -> std::uint8_t {
-    const auto hit = job.geometry->closest_hit(
-        camera.at((area.x0 + x) / scene.film.width, (area.y0 + y) / scene.film.height));
-    return hit && std::holds_alternative<TranslucentMaterial>(
-                      scene.materials[scene.objects[hit->object].material].kind);
-  };
-  const auto width = static_cast<std::size_t>(area.x1 - area.x0);
-  const auto height = static_cast<std::size_t>(area.y1 - area.y0);
-  const std::size_t stride = width + 1;
-  std::vector<std::uint8_t> corners(stride * (height + 1));
-  parallel_for(job.threads, height + 1, [&](std::size_t y) {
-    for (std::size_t x = 0; x <= width && !stop; ++x)
-      corners[y * stride + x] = shows_object(static_cast<double>(x), static_cast<double>(y));
-  });
-  std::vector<std::uint8_t> mask(width * height);
-  parallel_for(job.threads, height, [&](std::size_t y) {
-    for (std::size_t x = 0; x < width && !stop; ++x) {
-      const std::uint8_t* corner = &corners[y * stride + x];
-      const bool whole = corner[0] && corner[1] && corner[stride] && corner[stride + 1];
-      mask[y * width + x] = whole && shows_object(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
-    }
-  });
-  return mask;
+Passes::Passes(const Job& job, const std::atomic<bool>& stop)
+    : job_(job),
+      stop_(stop),
+      camera_(camera_of(job)),
+      area_(area_of(job)),
+      tiles_(make_tiles(area_.x1 - area_.x0, area_.y1 - area_.y0, {}, tile_size(area_))) {}
+
+bool Passes::advance(const Rendering& before, std::uint64_t samples, Rendering& after) const {
+  const int width = area_.x1 - area_.x0;
+  const int height = area_.y1 - area_.y0;
+  if (after.film.width != width || after.film.height != height) after.film = Film(width, height);
+  const PathOptions options{job_.estimator, is_chromatic(*job_.scene), &stop_};
+  const Pass pass{job_, camera_, area_, options, samples, before, after.film};
+  std::vector<TileResult> results(tiles_.size());
+  parallel_for(
+      job_.threads, tiles_.size(), [&](std::size_t i) { results[i] = pass.render_tile(tiles_[i]); },
+      job_.priority);
+  after.spp = before.spp + samples;
+  after.counters = before.counters;
+  after.non_finite = before.non_finite;
+  for (const TileResult& result : results) {
+    if (!result.complete) return false;
+    after.counters += result.counters;
+    after.non_finite += result.non_finite;
+  }
+  return true;
 }
 
 Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& stop,
                  const std::function<void(const Rendering&)>& published) {
-  const Scene& scene = *job.scene;
+  const Passes passes(job, stop);
+  const std::vector<std::uint8_t> mask = first_hits(job, stop).mask;
   const Tile area = area_of(job);
-  const int width = area.x1 - area.x0;
-  const int height = area.y1 - area.y0;
-  const CameraRays camera = make_camera_rays(scene.camera, scene.film.width, scene.film.height);
-  const std::vector<Tile> tiles = make_tiles(width, height);
-  const std::vector<std::uint8_t> mask = object_mask(job, stop);
   Rendering done;
-  done.film = Film(width, height);
-  Film next(width, height);
+  done.film = Film(area.x1 - area.x0, area.y1 - area.y0);
+  Rendering next = done;
   const Timer timer;
   for (;;) {
     const std::uint64_t samples = next_pass({done.spp, done.seconds, done.noise}, budget);
-    if (samples == 0 || stop) return done;
-    const Pass pass{job,      camera,  area,      {job.estimator, is_chromatic(scene), &stop},
-                    done.spp, samples, done.film, next};
-    std::vector<TileResult> results(tiles.size());
-    parallel_for(job.threads, tiles.size(), [&](std::size_t i) { results[i] = pass.render_tile(tiles[i]); });
-    PathCounters counters = done.counters;
-    std::uint64_t non_finite = done.non_finite;
-    for (const TileResult& result : results) {
-      if (!result.complete) return done;
-      counters += result.counters;
-      non_finite += result.non_finite;
-    }
-    std::swap(done.film, next);
-    done.spp += samples;
+    if (samples == 0 || stop || !passes.advance(done, samples, next)) return done;
+    std::swap(done, next);
     done.seconds = timer.seconds();
     done.noise = relative_noise(done.film, mask);
-    done.counters = counters;
-    done.non_finite = non_finite;
     published(done);
   }
 }

@@ -10,6 +10,7 @@
 #include "film/film.h"
 #include "film/plan.h"
 #include "film/tiles.h"
+#include "render/parallel.h"
 #include "trace/geometry.h"
 #include "walk/path.h"
 
@@ -25,10 +26,12 @@ struct Job {
   std::uint32_t first_sample = 0;
   Estimator estimator = Estimator::implicit;
   int threads = 1;
+  int scale = 1;  // a power of two: one pixel of the job stands for scale x scale pixels of the scene's film
+  Priority priority = Priority::normal;
 };
 
 struct Rendering {
-  Film film;  // of the crop's size, or the scene's
+  Film film;  // of the size of the job's area
   std::uint64_t spp = 0;
   double seconds = 0;
   double noise = 0;  // relative noise over the object's pixels, see film.h
@@ -36,19 +39,37 @@ struct Rendering {
   std::uint64_t non_finite = 0;  // samples that were not finite, taken as black
 };
 
-/// The rectangle of the scene's film that the job renders.
-[[nodiscard]] Tile area_of(const Job& job);
+/// The rectangle that the job renders, in its own pixels; at a scale, the pixels that the crop touches.
+[[nodiscard]] Tile area_of(const Job& job) noexcept;
 
-/// One byte a pixel of the job's area: 1 where its whole square shows a translucent object, judged at its
-/// corners and its middle. Once `stop` is true the rest is left 0.
-[[nodiscard]] std::vector<std::uint8_t> object_mask(const Job& job, const std::atomic<bool>& stop);
+/// The camera of the scene's film, and the ray through a place of it given in the job's pixels.
+[[nodiscard]] CameraRays camera_of(const Job& job) noexcept;
+[[nodiscard]] Ray film_ray(const Job& job, const CameraRays& camera, double x, double y) noexcept;
 
 /// Bytes that the films of a job take.
 [[nodiscard]] std::uint64_t film_bytes(const Job& job);
 
+/// A job's passes over its area, one at a time.
+class Passes {
+ public:
+  /// `stop` must outlive the passes.
+  Passes(const Job& job, const std::atomic<bool>& stop);
+
+  /// Renders `samples` more samples a pixel than `before` has and puts film, spp, counters and non_finite
+  /// into `after`, a different object. False when it was interrupted: `after` is then of no use. A pass is
+  /// kept whole or not at all: keeping the walks that had ended would keep the short ones.
+  [[nodiscard]] bool advance(const Rendering& before, std::uint64_t samples, Rendering& after) const;
+
+ private:
+  Job job_;
+  const std::atomic<bool>& stop_;
+  CameraRays camera_;
+  Tile area_;
+  std::vector<Tile> tiles_;
+};
+
 /// Renders until the budget is met or `stop` becomes true. `published` is called after every pass, on the
-/// calling thread. A pass that was interrupted is discarded whole: keeping the walks that had ended would
-/// keep the short ones.
+/// calling thread. A pass that was interrupted is discarded.
 [[nodiscard]] Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& stop,
                                const std::function<void(const Rendering&)>& published);
 

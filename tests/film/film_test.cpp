@@ -119,4 +119,29 @@ TEST_CASE("the mean of a film weighs pixels equally, whatever their counts") {
   CHECK(mean_of(Film{})[0] == 0);
 }
 
+TEST_CASE("planes show the mean, its variance, the samples, and paths weighed by the light they brought") {
+  Film film(3, 2);
+  Pixel& pixel = film.at(2, 1);
+  pixel.add(Rgb(1, 2, 3));
+  pixel.add(Rgb(3, 2, 7));
+  pixel.paths += {2, 2 * 5, 2 * 0.25};  // luminance 2 after 5 scatterings and a length of 0.25
+  pixel.paths += {6, 6 * 1, 6 * 4.25};
+  Image normals(3, 2, 3);
+  normals.at(2, 1)[0] = 0.5f;
+  normals.at(2, 1)[1] = -0.25f;
+  normals.at(2, 1)[2] = 0.75f;
+  const FilmPlanes planes = resolve_planes(film, &normals);
+  const auto holds = [](const Image& image, int x, int y, std::array<float, 4> expected) {
+    REQUIRE(image.channels == 4);
+    for (int c = 0; c < 4; ++c) CHECK(image.at(x, y)[c] == expected[c]);
+  };
+  holds(planes.radiance, 2, 1, {2, 2, 5, 2});
+  holds(planes.error, 2, 1, {1, 0, 4, 2});  // (5 * 2 + 1 * 6) / 8
+  holds(planes.features, 2, 1, {3.25f, 0.5f, -0.25f, 0.75f});
+  holds(planes.radiance, 1, 1, {0, 0, 0, 0});
+  holds(planes.error, 1, 1, {0, 0, 0, 0});  // no light, no paths: 0, not 0/0
+  holds(planes.features, 1, 1, {0, 0, 0, 0});
+  holds(resolve_planes(film, nullptr).features, 2, 1, {3.25f, 0, 0, 0});
+}
+
 }  // namespace meander

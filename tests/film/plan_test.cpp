@@ -138,4 +138,14 @@ TEST_CASE("of several budgets the first that is met ends the image") {
   CHECK(next_pass(progress, Budget{1000, 100.0, 0.049}) == 1);
 }
 
+TEST_CASE("a live image's passes are short at first and grow to the longest") {
+  CHECK(longest_live_pass(0) == 0.1);
+  CHECK(longest_live_pass(1.2) == doctest::Approx(0.3));
+  CHECK(longest_live_pass(1000) == kLongestPass);
+  const Progress progress{64, 0.64, 1};  // 10 ms a sample
+  CHECK(next_pass(progress, {}) == 50);
+  CHECK(next_pass(progress, {}, 0.1) == 10);
+  CHECK(next_pass(progress, {}, 0.001) == 1);  // never less than one sample
+}
+
 }  // namespace meander

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "render/first_hits.h"
 #include "render/small_scene.h"
 
 using namespace meander;
@@ -112,7 +113,7 @@ TEST_CASE("the object mask holds the pixels that lie wholly on a translucent obj
   scene.materials.push_back(translucent("m", {Rgb(1), Rgb(1), 0}, Boundary::matched));
   scene.objects.push_back({"ball", SphereShape{}, 0, {}});
   const std::atomic<bool> stop{false};
-  const auto mask = object_mask(make_job(std::move(scene), 2), stop);
+  const auto mask = first_hits(make_job(std::move(scene), 2), stop).mask;
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) {
       // The corner of the pixel farthest from the middle, in units of the radius.
