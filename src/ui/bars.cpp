@@ -52,8 +52,11 @@ void copy_menu(const Ui& ui, const ToolbarModel& model) {
 }
 
 void save_menu(const Ui& ui, const ToolbarModel& model) {
-  if (icon_button("save", Icon::save, "Save: scene, EXR, PNG", {true, model.modified}))
-    ImGui::OpenPopup("save as");
+  if (icon_button("save", Icon::save, "Save: scene, EXR, PNG", {})) ImGui::OpenPopup("save as");
+  if (model.modified) {  // a dot at the corner
+    const ImVec2 corner(ImGui::GetItemRectMax().x - 4, ImGui::GetItemRectMin().y + 4);
+    ImGui::GetWindowDrawList()->AddCircleFilled(corner, 2.5f, kAccent, 12);
+  }
   if (!ImGui::BeginPopup("save as")) return;
   if (ImGui::MenuItem("Save the scene", "Ctrl + S")) ui.command(CommandKind::save);
   if (ImGui::MenuItem("Save the scene as …", "Ctrl + Shift + S")) ui.command(CommandKind::save_browser);
@@ -112,6 +115,7 @@ void exposure_slider(const Ui& ui, const ViewModel& model) {
   spec.typed_high = 50;
   spec.text = signed_text(model.exposure, 2) + " EV";
   spec.start = significant(model.exposure, 4);
+  spec.origin = 0;
   spec.tooltip = "Exposure in stops (E, Shift + E); instant";
   if (const auto exposure = bare_slider(ui, spec, model.exposure, {at, {at.x + 104, at.y + kRowHeight}}))
     ui.edit(edit_text("display.exposure", *exposure));
@@ -120,7 +124,28 @@ void exposure_slider(const Ui& ui, const ViewModel& model) {
   constexpr std::array<std::string_view, 2> kTones{"sRGB", "filmic"};
   if (const auto tone = segmented(row, "tone", kTones, model.tone == Tone::filmic ? 1 : 0))
     ui.edit(edit_text("display.tone", *tone == 1 ? std::string_view("filmic") : std::string_view("srgb")));
-  ImGui::SetCursorScreenPos({row.high.x, at.y - 2});
+  const float end = row.high.x + 11;
+  ImGui::GetWindowDrawList()->AddLine({end - 6, at.y + 2}, {end - 6, at.y + 18}, IM_COL32(64, 64, 64, 255));
+  ImGui::SetCursorScreenPos({end, at.y - 2});
+}
+
+struct WindowLook {
+  ImU32 color;
+  ImVec2 padding;
+};
+
+void begin_window(const char* name, const Area& area, const WindowLook& look, ImGuiWindowFlags flags) {
+  ImGui::SetNextWindowPos({area.x, area.y});
+  ImGui::SetNextWindowSize({area.width, area.height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, look.padding);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, look.color);
+  ImGui::Begin(name, nullptr,
+               flags | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollWithMouse |
+                   ImGuiWindowFlags_NoNav);
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
 }
 
 std::string pad(const std::string& text) { return text.empty() ? text : " · " + text; }
@@ -128,17 +153,16 @@ std::string pad(const std::string& text) { return text.empty() ? text : " · " +
 }  // namespace
 
 void begin_area(const char* name, const Area& area, ImU32 color, const ImVec2& padding) {
-  ImGui::SetNextWindowPos({area.x, area.y});
-  ImGui::SetNextWindowSize({area.width, area.height});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, color);
-  ImGui::Begin(name, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
-                   ImGuiWindowFlags_NoNav);
-  ImGui::PopStyleColor();
-  ImGui::PopStyleVar(2);
+  begin_window(name, area, {color, padding}, ImGuiWindowFlags_NoBringToFrontOnFocus);
+}
+
+void begin_dialog(const char* name, const Area& area, const ImVec2& padding) {
+  begin_window(name, area, {kDialogColor, padding}, ImGuiWindowFlags_None);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 high(area.x + area.width, area.y + area.height);
+  list.PushClipRect({area.x, area.y}, high);
+  list.AddRect({area.x, area.y}, high, IM_COL32(78, 78, 78, 255));
+  list.PopClipRect();
 }
 
 void toolbar(const Ui& ui, const UiModel& model, const Area& area) {
@@ -147,14 +171,13 @@ void toolbar(const Ui& ui, const UiModel& model, const Area& area) {
   picture_buttons(ui, model);
   view_choice(ui, model.view);
   exposure_slider(ui, model.view);
-  divider();
   if (icon_button("pause", model.toolbar.paused ? Icon::play : Icon::pause,
                   model.toolbar.paused ? "Go on (Space)" : "Pause (Space)", {true, model.toolbar.paused}))
     ui.command(CommandKind::pause);
   ImGui::SameLine(0, 10);
   const float from = ImGui::GetCursorScreenPos().x;
   const float help_at = area.x + area.width - kButton - 8;
-  const std::string name = model.toolbar.scene_name + (model.toolbar.modified ? " ∙" : "");
+  const std::string name = model.toolbar.scene_name + (model.toolbar.modified ? " •" : "");
   const float room = help_at - 10 - from;
   if (room > 40) {
     const std::string shown = elided(plain_font(), name, room);
@@ -172,7 +195,8 @@ std::string status_text(const StatisticsModel& model, double target, bool paused
   if (model.noise > 0) {
     text += " · noise " + percent_text(model.noise);
     const auto more = seconds_to_noise(model, target);
-    if (more) text += " · " + percent_text(target) + (*more > 0 ? " in " + duration_text(*more) : " reached");
+    if (more)
+      text += " · " + short_percent(target) + (*more > 0 ? " in " + duration_text(*more) : " reached");
   }
   text += pad(model.estimator);
   if (model.leaked_walks > 0)

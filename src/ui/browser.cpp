@@ -112,9 +112,8 @@ void browser_dialog(const Ui& ui, const BrowserModel& model, const Area& window)
   const float height = std::min(420.0f, window.height - 24);
   const Area area{std::floor(0.5f * (window.width - width)), std::floor(0.4f * (window.height - height)),
                   width, height};
-  begin_area("browser", area, IM_COL32(38, 38, 38, 252), {14, 12});
-  ImGui::GetWindowDrawList()->AddRect({area.x, area.y}, {area.x + width, area.y + height},
-                                      IM_COL32(76, 76, 76, 255));
+  begin_dialog("browser", area, {14, 12});
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ui.state.browser = BrowserUse::closed;
   draw_text(strong_font(), {area.x + 14, area.y + 13}, kTextColor, words.title);
   ImGui::SetCursorScreenPos({area.x + width - 36, area.y + 8});
   if (icon_button("close", Icon::close, "Close (Esc)")) ui.state.browser = BrowserUse::closed;

@@ -20,6 +20,14 @@ void report_gesture(const Ui& ui) {
   ui.state.last_active = now;
 }
 
+// Escape closes the list, menu or picker on top: the keyboard is the interface's while one is open.
+void close_popup_on_escape() {
+  ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (context.OpenPopupStack.Size > 0 && !context.IO.WantTextInput &&
+      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false))
+    ImGui::ClosePopupToLevel(context.OpenPopupStack.Size - 1, true);
+}
+
 void draw_section(const Ui& ui, PanelName name, const UiModel& model) {
   switch (name) {
     case PanelName::preset:
@@ -44,6 +52,7 @@ void draw_section(const Ui& ui, PanelName name, const UiModel& model) {
 UiActions draw_interface(const UiModel& model, UiState& state, const Layout& layout) {
   UiActions actions;
   const Ui ui{state, actions};
+  close_popup_on_escape();
   if (!state.hidden) {
     toolbar(ui, model, layout.toolbar);
     if (layout.strip.height > 0) snapshot_strip(ui, model.snapshots, layout.strip);

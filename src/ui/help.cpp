@@ -36,10 +36,7 @@ void help_overlay(const Ui& ui, const Area& window) {
   const float height = std::min(title + kLine * per_column + 20, window.height - 16);
   const Area area{std::floor(0.5f * (window.width - width)), std::floor(0.5f * (window.height - height)),
                   width, height};
-  ImGui::SetNextWindowFocus();
-  begin_area("help", area, IM_COL32(30, 30, 30, 248), {0, 0});
-  ImGui::GetWindowDrawList()->AddRect({area.x, area.y}, {area.x + width, area.y + height},
-                                      IM_COL32(72, 72, 72, 255));
+  begin_dialog("help", area, {0, 0});
   draw_text(strong_font(), {area.x + 16, area.y + 13}, kTextColor, "Keys and pointer");
   ImGui::SetCursorScreenPos({area.x + width - 34, area.y + 8});
   if (icon_button("close", Icon::close, "Close (Esc)")) ui.state.help = false;

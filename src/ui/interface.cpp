@@ -69,6 +69,14 @@ void set_modifiers(ImGuiIO& io, const Modifiers& modifiers) {
   io.KeySuper = modifiers.super;
 }
 
+// Of a modifier's own key the state before the event is told, at least under X.
+void set_modifier_key(ImGuiIO& io, const InputEvent& event) {
+  if (event.code == key::kLeftControl || event.code == key::kRightControl) io.KeyCtrl = event.down;
+  if (event.code == key::kLeftShift || event.code == key::kRightShift) io.KeyShift = event.down;
+  if (event.code == key::kLeftAlt || event.code == key::kRightAlt) io.KeyAlt = event.down;
+  if (event.code == key::kLeftSuper || event.code == key::kRightSuper) io.KeySuper = event.down;
+}
+
 // What has changed in a frame so far.
 struct Changed {
   std::array<bool, 3> buttons{};
@@ -116,6 +124,7 @@ void apply_event(ImGuiIO& io, const InputEvent& event, float pointer_scale, Chan
     case InputKind::key:
       if (!in_range(event, changed.keys.size())) break;
       set_modifiers(io, event.modifiers);
+      set_modifier_key(io, event);
       changed.keys[static_cast<std::size_t>(event.code)] = io.KeysDown[event.code] != event.down;
       io.KeysDown[event.code] = event.down;
       break;
@@ -225,7 +234,8 @@ bool Interface::wants_mouse() const {
 
 bool Interface::wants_keyboard() const {
   ImGui::SetCurrentContext(state_->context);
-  return ImGui::GetIO().WantTextInput;
+  return ImGui::GetIO().WantTextInput ||
+         ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
 PointerShape Interface::pointer_shape() const {

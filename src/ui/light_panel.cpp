@@ -41,6 +41,7 @@ SliderSpec stops_spec(const std::string& label, double now, double reset) {
   spec.id = "##stops" + label;
   spec.map = {Spacing::linear, -kStops, kStops, nullptr};
   spec.ticks = kUnity;
+  spec.origin = 0;
   spec.reset = reset;
   spec.typed_low = -kTypedStops;
   spec.typed_high = kTypedStops;
@@ -105,6 +106,7 @@ void rotation_row(const Ui& ui, const EnvironmentItem& now, const EnvironmentIte
   spec.id = "##rotation";
   spec.map = {Spacing::linear, -180, 180, nullptr};
   spec.ticks = kAngles;
+  spec.origin = 0;
   spec.reset = original.rotation;
   spec.typed_low = -360;
   spec.typed_high = 360;

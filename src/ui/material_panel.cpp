@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kParametrisations{"Colour", "Albedo", "σ"};
 constexpr std::array<std::string_view, 3> kBoundaries{"index-matched", "Lambertian", "dielectric"};
 constexpr std::array<std::string_view, 3> kBoundaryWords{"matched", "diffuse", "dielectric"};
-constexpr std::array<std::string_view, 3> kLocks{"hold look", "hold σt", "hold σs′"};
+constexpr std::array<std::string_view, 3> kLocks{"look", "σₜ", "σₛ′"};
 constexpr std::array<std::string_view, 3> kLockWords{"look", "sigma_t", "sigma_s_reduced"};
 constexpr std::array<Tick, 5> kIors{
     {{1.0, "matched"}, {1.33, "water"}, {1.4, "skin"}, {1.5, "wax, marble"}, {1.8, ""}}};
@@ -37,18 +37,16 @@ void preset_entry(const Ui& ui, const MaterialModel& model, const Preset& preset
     ui.edit(edit_text(material_path(model, "preset"), preset.name));
     ui.state.preset_search.clear();
   }
-  const std::string about = std::string(preset.source) + "\nσs  " + triple_text(preset.sigma_s, 3) +
-                            " /mm\nσa  " + triple_text(preset.sigma_a, 3) + " /mm\nior  " +
+  const std::string about = std::string(preset.source) + "\nσₛ  " + triple_text(preset.sigma_s, 3) +
+                            " /mm\nσₐ  " + triple_text(preset.sigma_a, 3) + " /mm\nior  " +
                             significant(preset.ior, 3);
   item_tooltip(about.c_str());
 }
 
 void preset_choice(const Ui& ui, const MaterialModel& model) {
   const Row row = begin_row("Preset", Effect::restart, "Measured materials, each with its source");
-  ImGui::SetCursorScreenPos(row.low);
-  ImGui::SetNextItemWidth(row.width());
   const std::string shown = model.now.preset.empty() ? "choose …" : spaced(model.now.preset);
-  if (ImGui::BeginCombo("##preset", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
+  if (begin_list(row, "##preset", shown)) {
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     std::array<char, 64> buffer{};
     ui.state.preset_search.copy(buffer.data(), buffer.size() - 1);
@@ -78,6 +76,7 @@ void g_rows(const Ui& ui, const MaterialModel& model) {
   spec.id = "##g";
   spec.map = {Spacing::linear, -0.95, 0.95, nullptr};
   spec.ticks = kIsotropic;
+  spec.origin = 0;
   spec.reset = model.original.g;
   spec.typed_low = -0.9999;
   spec.typed_high = 0.9999;
@@ -85,27 +84,12 @@ void g_rows(const Ui& ui, const MaterialModel& model) {
   spec.start = significant(model.now.g, 6);
   spec.tooltip = "Mean cosine of a scattering: above 0 forward, below 0 backward";
   if (const auto g = slider(ui, spec, model.now.g)) ui.edit(edit_text(material_path(model, "g"), *g));
-  const Row row = begin_row("g holds", Effect::none,
-                            "What a change of g keeps: the look (colour and reduced extinction), the "
-                            "extinction, or the reduced scattering");
+  const Row row = begin_row(
+      "g keeps", Effect::none,
+      "What a change of g keeps: the look (colour and reduced extinction σₜ′), the extinction σₜ, or the "
+      "reduced scattering σₛ′ = σₛ (1 − g)");
   if (const auto lock = segmented(row, "lock", kLocks, static_cast<int>(model.now.g_lock)))
     ui.edit(edit_text(material_path(model, "g_lock"), kLockWords[static_cast<std::size_t>(*lock)]));
-}
-
-// Each edit must leave a scene that reads: a matched boundary has neither index nor roughness, and a
-// dielectric one needs an index.
-void change_boundary(const Ui& ui, const MaterialModel& model, Boundary boundary) {
-  const MaterialDescription& now = model.now;
-  if (boundary == now.surface.boundary) return;
-  const auto word = kBoundaryWords[static_cast<std::size_t>(boundary)];
-  if (boundary != Boundary::dielectric && now.roughness != 0)
-    ui.edit(edit_text(material_path(model, "roughness"), 0.0));
-  if (boundary == Boundary::dielectric || boundary == Boundary::matched)
-    if (now.surface.ior == 1 || boundary == Boundary::matched)
-      ui.edit(edit_text(material_path(model, "ior"), 1.0));
-  ui.edit(edit_text(material_path(model, "boundary"), word));
-  if (boundary == Boundary::dielectric && now.surface.ior == 1)
-    ui.edit(edit_text(material_path(model, "ior"), kUsualIor));
 }
 
 void ior_row(const Ui& ui, const MaterialModel& model) {
@@ -129,7 +113,7 @@ void surface_rows(const Ui& ui, const MaterialModel& model) {
                             "index-matched: none. Lambertian: light enters and leaves diffusely. dielectric: "
                             "Fresnel reflection and refraction");
   if (const auto picked = choice(row, "##boundary", kBoundaries, static_cast<int>(now.surface.boundary)))
-    change_boundary(ui, model, static_cast<Boundary>(*picked));
+    for (const std::string& edit : boundary_edits(model, static_cast<Boundary>(*picked))) ui.edit(edit);
   if (now.surface.boundary == Boundary::matched) return;
   ior_row(ui, model);
   if (now.surface.boundary != Boundary::dielectric) return;
@@ -147,6 +131,20 @@ void surface_rows(const Ui& ui, const MaterialModel& model) {
 
 std::string material_path(const MaterialModel& model, std::string_view key) {
   return "material." + model.now.name + '.' + std::string(key);
+}
+
+std::vector<std::string> boundary_edits(const MaterialModel& model, Boundary boundary) {
+  const MaterialDescription& now = model.now;
+  std::vector<std::string> edits;
+  if (boundary == now.surface.boundary) return edits;
+  const std::string ior = material_path(model, "ior");
+  const bool needs_index = boundary == Boundary::dielectric && now.surface.ior == 1;
+  if (now.roughness != 0) edits.push_back(edit_text(material_path(model, "roughness"), 0.0));
+  if (boundary == Boundary::matched || needs_index) edits.push_back(edit_text(ior, 1.0));
+  edits.push_back(
+      edit_text(material_path(model, "boundary"), kBoundaryWords[static_cast<std::size_t>(boundary)]));
+  if (needs_index) edits.push_back(edit_text(ior, kUsualIor));
+  return edits;
 }
 
 void preset_panel(const Ui& ui, const MaterialModel& model) {

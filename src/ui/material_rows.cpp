@@ -11,8 +11,6 @@ namespace meander {
 namespace {
 
 constexpr std::array<const char*, 3> kChannels{"R", "G", "B"};
-constexpr std::array<ImU32, 3> kTints{IM_COL32(122, 62, 62, 255), IM_COL32(60, 104, 66, 255),
-                                      IM_COL32(62, 82, 132, 255)};
 constexpr std::array<std::string_view, 3> kInversions{"exact", "Chiang 2016", "van de Hulst"};
 constexpr std::array<std::string_view, 3> kInversionWords{"exact", "chiang", "van_de_hulst"};
 constexpr double kShortest = 1e-3;  // of the thickness
@@ -53,7 +51,7 @@ SliderSpec length_spec(const MaterialModel& model, const Lengths& lengths) {
   spec.typed_low = 1e-9;
   spec.typed_high = 1e9;
   spec.tooltip =
-      "Mean distance between two events, 1/σt: from a thousandth of the object's thickness to ten "
+      "Mean distance between two events, 1/σₜ: from a thousandth of the object's thickness to ten "
       "times. Beside it the thickness in mean free paths";
   return spec;
 }
@@ -90,7 +88,7 @@ void separate_lengths(const Ui& ui, const MaterialModel& model, const Lengths& l
     const auto channel = static_cast<std::size_t>(c);
     spec.label = c == 0 ? std::string(lengths.label) : std::string();
     spec.id = std::string("##length") + kChannels[channel];
-    spec.tint = kTints[channel];
+    spec.channel = kChannels[channel];
     spec.reset = unit * lengths.original[c];
     spec.text = significant(unit * lengths.now[c], 3) + " mm";
     spec.start = significant(unit * lengths.now[c], 6);
@@ -133,6 +131,7 @@ void numbers(const Row& row, const DVec3& color, const std::string& after) {
   const float x = row.low.x + 50;
   draw_text(small_font(), {x, row.low.y + 4}, kTextColor, triple_text(color, 3));
   const float width = text_width(small_font(), after);
+  if (x + text_width(small_font(), triple_text(color, 3)) + 6 > row.high.x - width) return;  // no room
   draw_text(small_font(), {row.high.x - width, row.low.y + 4}, kDimColor, after);
 }
 
@@ -182,11 +181,11 @@ void sigma_row(const Ui& ui, const MaterialModel& model, int channel, bool scatt
   const DVec3& original = scattering ? model.original.sigma_s : model.original.sigma_a;
   const char* key = scattering ? "sigma_s" : "sigma_a";
   SliderSpec spec = sigma_spec(model);
-  if (channel == 0) spec.label = scattering ? "Scattering σs" : "Absorption σa";
+  if (channel == 0) spec.label = scattering ? "Scattering σₛ" : "Absorption σₐ";
   spec.tooltip =
       scattering ? "Scattering coefficient per millimetre" : "Absorption coefficient per millimetre";
   spec.id = std::string("##") + key + kChannels[static_cast<std::size_t>(channel)];
-  spec.tint = kTints[static_cast<std::size_t>(channel)];
+  spec.channel = kChannels[static_cast<std::size_t>(channel)];
   spec.reset = original[channel];
   spec.text = significant(now[channel], 4) + " /mm";
   spec.start = significant(now[channel], 6);
@@ -232,10 +231,9 @@ void albedo_rows(const Ui& ui, const MaterialModel& model) {
     const auto channel = static_cast<std::size_t>(c);
     const double now = model.now.albedo[c];
     SliderSpec spec;
-    spec.label = kChannels[channel];
     spec.id = std::string("##albedo") + kChannels[channel];
     spec.map = {Spacing::color, 0, 1, &map};
-    spec.tint = kTints[channel];
+    spec.channel = kChannels[channel];
     spec.reset = model.original.albedo[c];
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.5f", now);

@@ -37,10 +37,9 @@ void wrapped(ImFont* font, const ImVec2& at, ImU32 color, const std::pair<const 
 void toast(const Ui& ui, const Message& message, const Area& area) {
   const std::string name = "message " + std::to_string(message.id);
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, std::min(1.0f, 0.25f + static_cast<float>(message.age) / kFadeIn));
-  begin_area(name.c_str(), area, IM_COL32(30, 30, 30, 245), {0, 0});
+  begin_dialog(name.c_str(), area, {0, 0});
   ImGui::PopStyleVar();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRect({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(70, 70, 70, 255));
   list.AddRectFilled({area.x, area.y}, {area.x + 3, area.y + area.height}, color_of(message.kind));
   const float width = area.width - 2 * kPadding - 30;
   ImVec2 at(area.x + kPadding + 4, area.y + kPadding);

@@ -59,7 +59,7 @@ std::string decade_text(int exponent) {
 
 void draw_grid(const Axes& axes, ImDrawList& list) {
   constexpr ImU32 kMajor = IM_COL32(66, 66, 66, 255);
-  constexpr ImU32 kMinor = IM_COL32(48, 48, 48, 255);
+  constexpr ImU32 kMinor = IM_COL32(42, 42, 42, 255);
   const bool minor = axes.x1 - axes.x0 <= 4;
   for (int decade = static_cast<int>(axes.x0); decade <= static_cast<int>(axes.x1); ++decade) {
     const float x = std::round(axes.at(std::pow(10.0, decade), 1).x);

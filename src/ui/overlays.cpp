@@ -58,7 +58,7 @@ void ruler(const OverlayModel& model, const Area& image) {
 }
 
 std::string legend_text(const LegendModel& legend, double value) {
-  return legend.percent ? significant(100 * value, 2) + " %" : count_text(value);
+  return legend.percent ? short_percent(value) : count_text(value);
 }
 
 void draw_legend(const LegendModel& legend, const Area& image) {
@@ -120,7 +120,7 @@ void titles(const UiModel& model, const Area& image) {
 
 // The line between A and B, which is dragged by its whole length.
 void wipe_line(const Ui& ui, const UiModel& model, const Area& image) {
-  if (model.view.comparison != CompareMode::wipe) return;
+  if (model.view.comparison != CompareMode::wipe || model.overlay.selecting) return;
   const Area& film = model.overlay.film;
   const float x = std::clamp(film.x + model.view.wipe * film.width, image.x, image.x + image.width);
   const float y0 = std::max(film.y, image.y);
@@ -157,11 +157,15 @@ void outline(const Area& area) {
 PixelBox box_between(const OverlayModel& overlay, const ImVec2& from, const ImVec2& to) {
   const auto a = film_point(overlay, std::min(from.x, to.x), std::min(from.y, to.y));
   const auto b = film_point(overlay, std::max(from.x, to.x), std::max(from.y, to.y));
-  const auto pixel = [](double place, int limit) {
-    return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(limit)));
+  constexpr double kEdge = 1e-3;  // of a pixel, which the drag must at least reach into
+  const auto first = [](double place, int limit) {
+    return static_cast<int>(std::clamp(std::floor(place + kEdge), 0.0, static_cast<double>(limit)));
   };
-  return {pixel(std::floor(a[0]), overlay.film_width), pixel(std::floor(a[1]), overlay.film_height),
-          pixel(std::ceil(b[0]), overlay.film_width), pixel(std::ceil(b[1]), overlay.film_height)};
+  const auto end = [](double place, int limit) {
+    return static_cast<int>(std::clamp(std::ceil(place - kEdge), 0.0, static_cast<double>(limit)));
+  };
+  return {first(a[0], overlay.film_width), first(a[1], overlay.film_height), end(b[0], overlay.film_width),
+          end(b[1], overlay.film_height)};
 }
 
 // While a rectangle is being chosen, the picture belongs to the interface.

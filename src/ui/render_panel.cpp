@@ -32,7 +32,7 @@ void budget_rows(const Ui& ui, const RenderModel& model) {
   spec.id = "##budget_noise";
   spec.map = {Spacing::logarithmic, 0.05, 50, nullptr};
   spec.typed_high = 100;
-  spec.text = model.budget_noise == 0 ? "no limit" : percent_text(model.budget_noise);
+  spec.text = model.budget_noise == 0 ? "no limit" : short_percent(model.budget_noise);
   spec.start = significant(100 * model.budget_noise, 4);
   if (const auto changed = slider(ui, spec, 100 * model.budget_noise))
     valued(ui, CommandKind::budget_noise, *changed <= 0.05 ? 0 : *changed / 100);

@@ -107,17 +107,36 @@ void draw_ticks(const Field& field, ImDrawList& list) {
   }
 }
 
+// At the lower end of the track, clear of the text.
+void draw_handle(const Field& field, float x, bool held) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImRect& box = field.box;
+  const float at = std::round(std::clamp(x, box.Min.x + 4, box.Max.x - 4));
+  const ImU32 color = held ? IM_COL32_WHITE : kAccent;
+  list.AddRectFilled({at - 4, box.Max.y - 4}, {at + 4, box.Max.y}, color, 1.5f);
+}
+
+void draw_channel(const Field& field) {
+  if (field.spec.channel.empty()) return;
+  const char letter = field.spec.channel.front();
+  const ImU32 color = letter == 'R'   ? IM_COL32(224, 128, 120, 255)
+                      : letter == 'G' ? IM_COL32(126, 196, 130, 255)
+                                      : IM_COL32(132, 164, 232, 255);
+  draw_text(small_font(), {field.box.Min.x + 6, field.box.Min.y + 4}, color, field.spec.channel);
+}
+
 void draw(const Field& field, double value, bool held) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImRect& box = field.box;
   list.AddRectFilled(box.Min, box.Max, field.hovered || held ? kHoverColor : kFrameColor, kRounding);
   const float x = field.x_of(place_of(field.spec.map, value));
-  list.PushClipRect(box.Min, {x, box.Max.y}, true);
-  list.AddRectFilled(box.Min, box.Max, field.spec.tint ? field.spec.tint : kAccentFill, kRounding);
+  const float from = field.x_of(place_of(field.spec.map, std::max(field.spec.origin, field.spec.map.low)));
+  list.PushClipRect({std::min(from, x), box.Min.y}, {std::max(from, x), box.Max.y}, true);
+  list.AddRectFilled(box.Min, box.Max, kTrackFill, kRounding);
   list.PopClipRect();
   draw_ticks(field, list);
-  const float handle = std::clamp(x, box.Min.x + 1, box.Max.x - 1);
-  list.AddRectFilled({handle - 1, box.Min.y}, {handle + 1, box.Max.y}, held ? IM_COL32_WHITE : kAccent);
+  draw_handle(field, x, held);
+  draw_channel(field);
   const std::string text = elided(plain_font(), field.spec.text, box.GetWidth() - 10);
   draw_text(plain_font(), {std::round(box.Max.x - 6 - text_width(plain_font(), text)), box.Min.y + 3},
             kTextColor, text);

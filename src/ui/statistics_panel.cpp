@@ -30,7 +30,7 @@ void target_row(const Ui& ui, const StatisticsModel& model) {
   spec.reset = 1;
   spec.typed_low = 0.001;
   spec.typed_high = 100;
-  spec.text = percent_text(ui.state.target_noise);
+  spec.text = short_percent(ui.state.target_noise);
   spec.start = significant(100 * ui.state.target_noise, 4);
   const auto seconds = seconds_to_noise(model, ui.state.target_noise);
   spec.aside = !seconds ? "–" : *seconds == 0 ? "reached" : "in " + duration_text(*seconds);

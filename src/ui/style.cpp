@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
+#include <fstream>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -15,14 +16,22 @@ struct FontFiles {
   std::string strong;
 };
 
+// Whether the file begins as a TrueType or OpenType font does: ImGui takes that for granted.
 bool readable(const std::string& path) {
-  std::error_code failed;
-  return !path.empty() && std::filesystem::is_regular_file(path, failed);
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 4> start{};
+  if (path.empty() || !file.read(start.data(), start.size())) return false;
+  const std::string_view tag(start.data(), start.size());
+  return tag == "OTTO" || tag == "true" || tag == "ttcf" || tag == std::string_view("\0\1\0\0", 4);
 }
 
 FontFiles find_fonts() {
   std::vector<FontFiles> choices;
-  if (const char* own = std::getenv("MEANDER_FONT")) choices.push_back({own, own});
+  if (const char* own = std::getenv("MEANDER_FONT"); own && *own) {
+    if (!readable(own))
+      throw Error(Fault::runtime, std::string(own) + ": not a font file, but MEANDER_FONT names it");
+    return {own, own};
+  }
   choices.push_back({MEANDER_FONT, MEANDER_STRONG_FONT});  // as found when this was built
   const std::string shared = "/usr/share/fonts/";
   for (const char* folder : {"opentype/inter/", "truetype/inter/", "inter/"})

@@ -11,6 +11,7 @@ namespace meander {
 inline constexpr ImU32 kSurround = IM_COL32(29, 29, 29, 255);
 inline constexpr ImU32 kPanelColor = IM_COL32(40, 40, 40, 255);
 inline constexpr ImU32 kBarColor = IM_COL32(34, 34, 34, 255);
+inline constexpr ImU32 kDialogColor = IM_COL32(36, 36, 36, 255);
 inline constexpr ImU32 kFrameColor = IM_COL32(56, 56, 56, 255);
 inline constexpr ImU32 kHoverColor = IM_COL32(68, 68, 68, 255);
 inline constexpr ImU32 kHeldColor = IM_COL32(80, 80, 80, 255);
@@ -19,6 +20,7 @@ inline constexpr ImU32 kTextColor = IM_COL32(222, 222, 222, 255);
 inline constexpr ImU32 kDimColor = IM_COL32(156, 156, 156, 255);
 inline constexpr ImU32 kFaintColor = IM_COL32(104, 104, 104, 255);
 inline constexpr ImU32 kAccent = IM_COL32(94, 164, 226, 255);
+inline constexpr ImU32 kTrackFill = IM_COL32(88, 88, 90, 255);
 inline constexpr ImU32 kAccentFill = IM_COL32(62, 98, 130, 255);
 inline constexpr ImU32 kWarnColor = IM_COL32(232, 176, 84, 255);
 inline constexpr ImU32 kErrorColor = IM_COL32(236, 108, 96, 255);

@@ -50,6 +50,12 @@ std::string signed_text(double value, int decimals) {
 
 std::string percent_text(double fraction) { return significant(100 * fraction, 2) + " %"; }
 
+std::string short_percent(double fraction) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.3g %%", 100 * fraction);
+  return buffer.data();
+}
+
 std::string duration_text(double seconds) {
   if (!std::isfinite(seconds)) return "∞";
   if (seconds < 9.95) return fixed(seconds, 1) + " s";

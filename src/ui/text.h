@@ -14,6 +14,8 @@ namespace meander {
 [[nodiscard]] std::string signed_text(double value, int decimals);
 /// "1.8 %" of 0.018.
 [[nodiscard]] std::string percent_text(double fraction);
+/// "1 %" of 0.01, without zeros at the end: of a number that someone chose.
+[[nodiscard]] std::string short_percent(double fraction);
 /// "6.2 s", "2 min 05 s", "1 h 12 min".
 [[nodiscard]] std::string duration_text(double seconds);
 /// "950", "12.3 k", "4.56 M".

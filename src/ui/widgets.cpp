@@ -3,7 +3,9 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "math/color.h"
 #include "ui/style.h"
@@ -29,6 +31,22 @@ void draw_mark(const ImVec2& low, Effect effect) {
     ImGui::SetTooltip(effect == Effect::restart ? "Restarts the image" : "Instant: the image goes on");
 }
 
+// All the same where the names fit into that, else by what the names need.
+std::vector<float> segment_widths(float room, std::span<const std::string_view> names) {
+  const auto count = static_cast<float>(names.size());
+  std::vector<float> widths;
+  float sum = 0;
+  float widest = 0;
+  for (const std::string_view name : names) {
+    widths.push_back(text_width(plain_font(), name));
+    sum += widths.back();
+    widest = std::max(widest, widths.back());
+  }
+  const float spare = (room - sum) / count;
+  for (float& width : widths) width = widest + 8 <= room / count ? room / count : width + spare;
+  return widths;
+}
+
 std::string_view without_id(std::string_view label) { return label.substr(0, label.find("##")); }
 
 Row row_of(float label_width, Effect effect) {
@@ -36,7 +54,7 @@ Row row_of(float label_width, Effect effect) {
   const float width = ImGui::GetContentRegionAvail().x;
   Row row;
   row.low = {at.x + label_width, at.y};
-  row.high = {at.x + width - (effect == Effect::none ? 0 : kMarkWidth), at.y + kRowHeight};
+  row.high = {at.x + width - kMarkWidth, at.y + kRowHeight};
   row.next = {at.x, at.y + kRowHeight + ImGui::GetStyle().ItemSpacing.y};
   ImGui::ItemSize({width, kRowHeight});
   draw_mark({row.high.x, at.y}, effect);
@@ -103,11 +121,14 @@ std::optional<int> segmented(const Row& row, const char* id, std::span<const std
   std::optional<int> pressed;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(row.low, row.high, kFrameColor, kRounding);
-  const float width = row.width() / static_cast<float>(names.size());
   ImGui::PushID(id);
+  const std::vector<float> widths = segment_widths(row.width(), names);
+  float left = row.low.x;
   for (int i = 0; i < static_cast<int>(names.size()); ++i) {
-    const ImVec2 low(std::round(row.low.x + width * static_cast<float>(i)), row.low.y);
-    const ImVec2 high(std::round(row.low.x + width * static_cast<float>(i + 1)), row.high.y);
+    const auto index = static_cast<std::size_t>(i);
+    const ImVec2 low(std::round(left), row.low.y);
+    const ImVec2 high(std::round(left + widths[index]), row.high.y);
+    left += widths[index];
     ImGui::SetCursorScreenPos(low);
     ImGui::PushID(i);
     if (ImGui::InvisibleButton("segment", {high.x - low.x, high.y - low.y})) pressed = i;
@@ -116,7 +137,7 @@ std::optional<int> segmented(const Row& row, const char* id, std::span<const std
     if (lit || ImGui::IsItemHovered())
       list.AddRectFilled(low, high, lit ? kAccentFill : kHoverColor, kRounding);
     if (i > 0 && !lit && i - 1 != chosen) list.AddLine({low.x, low.y + 4}, {low.x, high.y - 4}, kHeldColor);
-    const std::string text = elided(plain_font(), names[static_cast<std::size_t>(i)], high.x - low.x - 4);
+    const std::string text = elided(plain_font(), names[index], high.x - low.x - 2);
     const float x = std::round(0.5f * (low.x + high.x - text_width(plain_font(), text)));
     draw_text(plain_font(), {x, low.y + 3}, lit ? IM_COL32_WHITE : kTextColor, text);
   }
@@ -125,14 +146,23 @@ std::optional<int> segmented(const Row& row, const char* id, std::span<const std
   return pressed;
 }
 
+bool begin_list(const Row& row, const char* id, const std::string& shown) {
+  ImGui::SetCursorScreenPos(row.low);
+  ImGui::SetNextItemWidth(row.width());
+  const std::string text = elided(plain_font(), shown, row.width() - 26);
+  ImDrawList& list = *ImGui::GetWindowDrawList();  // of the window that the list drops from
+  const bool open =
+      ImGui::BeginCombo(id, text.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
+  draw_icon(list, Icon::chevron_down, {row.high.x - 11, 0.5f * (row.low.y + row.high.y)}, kDimColor);
+  return open;
+}
+
 std::optional<int> choice(const Row& row, const char* id, std::span<const std::string_view> names,
                           int chosen) {
   std::optional<int> picked;
-  ImGui::SetCursorScreenPos(row.low);
-  ImGui::SetNextItemWidth(row.width());
   const bool known = chosen >= 0 && chosen < static_cast<int>(names.size());
   const std::string shown(known ? names[static_cast<std::size_t>(chosen)] : "");
-  if (ImGui::BeginCombo(id, shown.c_str(), ImGuiComboFlags_HeightLargest)) {
+  if (begin_list(row, id, shown)) {
     for (int i = 0; i < static_cast<int>(names.size()); ++i)
       if (ImGui::Selectable(std::string(names[static_cast<std::size_t>(i)]).c_str(), i == chosen)) picked = i;
     ImGui::EndCombo();
@@ -213,7 +243,12 @@ bool section(const char* title, bool& open) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float margin = ImGui::GetStyle().WindowPadding.x;
   const ImU32 color = ImGui::IsItemHovered() ? IM_COL32(62, 62, 62, 255) : IM_COL32(50, 50, 50, 255);
-  list.AddRectFilled({at.x - margin, at.y}, {at.x + width + margin, at.y + height}, color);
+  const ImVec2 low(ImGui::GetWindowPos().x + 1, at.y);
+  list.PushClipRect(
+      {low.x, std::max(low.y, ImGui::GetWindowPos().y)},
+      {at.x + width + margin, std::min(at.y + height, ImGui::GetWindowPos().y + ImGui::GetWindowHeight())});
+  list.AddRectFilled(low, {at.x + width + margin, at.y + height}, color);
+  list.PopClipRect();
   draw_icon(list, open ? Icon::chevron_down : Icon::chevron_right, {at.x + 4, at.y + 0.5f * height},
             kDimColor);
   draw_text(strong_font(), {at.x + 16, at.y + 5}, kTextColor, title);

@@ -64,7 +64,8 @@ struct SliderSpec {
   std::string aside;
   Effect effect = Effect::restart;
   const char* tooltip = nullptr;
-  ImU32 tint = 0;  // of a channel
+  double origin = -1e300;    // where the filled part begins
+  std::string_view channel;  // "R", "G" or "B" on the track
 };
 
 /// The new value, when there is one.
@@ -76,7 +77,10 @@ struct SliderSpec {
 /// Buttons side by side over the row, of which one is chosen (-1: none): the one that was pressed.
 [[nodiscard]] std::optional<int> segmented(const Row& row, const char* id,
                                            std::span<const std::string_view> names, int chosen);
-/// A drop-down list over the row.
+/// Opens a drop-down list over the row, which shows `shown`; where it is open, ImGui::EndCombo() ends it. The
+/// row is still to be ended.
+[[nodiscard]] bool begin_list(const Row& row, const char* id, const std::string& shown);
+/// A drop-down list of names.
 [[nodiscard]] std::optional<int> choice(const Row& row, const char* id,
                                         std::span<const std::string_view> names, int chosen);
 
