@@ -1,3 +1,5 @@
+#include <thread>
+
 #include "io/document_support.h"
 #include "scene/camera_moves.h"
 
@@ -78,6 +80,27 @@ TEST_CASE("what did not change is the same object from scene to scene, also betw
   soap.set_camera(orbit(second.scene.camera, 0.1, 0));
   CHECK(mesh_of(first.scene, "bar") == mesh_of(soap.scene().scene, "bar"));
   CHECK(second.scene.environment.image == soap.scene().scene.environment.image);
+}
+
+TEST_CASE("copies may be edited and read in threads of their own") {
+  const SceneDocument document = SceneDocument::open(kSoap);
+  const auto edit = [](SceneDocument& copy) {
+    for (int i = 0; i < 10; ++i) {
+      copy.apply("material.soap.g=0." + std::to_string(i + 1));
+      copy.set_environment_sky(i % 2 ? "softbox" : "overcast");
+      (void)copy.scene();
+      (void)copy.material("soap");
+    }
+  };
+  SceneDocument here = document;
+  SceneDocument there = document;
+  std::thread other([&] { edit(there); });
+  edit(here);
+  other.join();
+  CHECK(here == there);
+  CHECK_FALSE(here == document);
+  CHECK(dump(here.scene().scene) == dump(there.scene().scene));
+  CHECK(mesh_of(here.scene().scene, "bar") == mesh_of(document.scene().scene, "bar"));
 }
 
 TEST_CASE("a file that changes on disk is read anew, and is watched") {
