@@ -6,6 +6,7 @@
 #include "math/fresnel.h"
 #include "render/parallel.h"
 #include "walk/analytic_worlds.h"
+#include "walk/interface.h"
 #include "walk/rough_interface.h"
 
 namespace meander {
@@ -144,7 +145,7 @@ class MeasuredWalk {
     if (diffuse)
       send_inward(n, random);
     else
-      walker_.direction = renormalise(walker_.direction - 2 * cosine * n);
+      walker_.direction = lift_off(renormalise(walker_.direction - 2 * cosine * n), -n);
     return true;
   }
 

@@ -209,7 +209,7 @@ struct PathTracer<G>::Passage {
     const InterfaceRay ray =
         meet_interface(walker.direction, -crossing.normal, -crossing.shading_normal, 1 / ior());
     if (random.next() < ray.reflectance) {
-      walker.direction = ray.reflected;
+      walker.direction = lift_off(ray.reflected, -crossing.normal);
       place_inside(crossing.point, crossing.normal);
       return std::nullopt;
     }
