@@ -26,7 +26,8 @@ struct MeasureOptions {
   std::optional<double> color;
   std::string inversion = "exact";
   std::string boundary = "matched";
-  double ior = 1;
+  std::optional<double> ior;
+  double roughness = 0;
   BinOptions bins;
   std::optional<double> radius;
   std::optional<double> max_depth;
@@ -86,8 +87,10 @@ Incidence parse_incidence(const std::string& text) {
 }
 
 Boundary boundary_of(const MeasureOptions& o) {
-  if (o.boundary == "matched" && o.ior != 1)
+  if (o.boundary == "matched" && o.ior.value_or(1) != 1)
     refuse("--ior other than 1 needs --boundary dielectric or diffuse");
+  if (o.boundary == "dielectric" && !o.ior) refuse("--boundary dielectric needs --ior, such as --ior 1.5");
+  if (o.roughness > 0 && o.boundary != "dielectric") refuse("--roughness needs --boundary dielectric");
   return o.boundary == "matched"   ? Boundary::matched
          : o.boundary == "diffuse" ? Boundary::diffuse
                                    : Boundary::dielectric;
@@ -104,8 +107,9 @@ std::vector<double> albedos_of(const MeasureOptions& o, double g) {
     const Inversion inversion = o.inversion == "chiang"         ? Inversion::chiang
                                 : o.inversion == "van_de_hulst" ? Inversion::van_de_hulst
                                                                 : Inversion::exact;
-    return {
-        double{medium_from_color(DVec3(*o.color), DVec3(1), g, inversion, {boundary_of(o), o.ior}).albedo.x}};
+    return {double{medium_from_color(DVec3(*o.color), DVec3(1), g, inversion,
+                                     {boundary_of(o), o.ior.value_or(1), o.roughness})
+                       .albedo.x}};
   }
   if (o.sigma_a || o.sigma_s) {
     const double sigma_t = o.sigma_a.value_or(0) + o.sigma_s.value_or(0);
@@ -129,6 +133,9 @@ BinOptions bins_of(const MeasureOptions& o, const decltype(MeasureJob::shape)& s
     refuse("--radial-bins and --depth-bins are for the slab and the half-space");
   if (bins.radial > 0 && !o.incidence.empty() && o.incidence != "normal")
     refuse("--radial-bins need a pencil beam: --incidence normal");
+  if (o.radius && bins.radial == 0) refuse("--radius is the range of --radial-bins N");
+  if (o.max_depth && bins.depth == 0) refuse("--depth is the range of --depth-bins N");
+  if (o.max_path && bins.path == 0) refuse("--path is the range of --path-bins N");
   if (o.radius) bins.radius = *o.radius * scale;
   if (const auto* slab = std::get_if<MeasuredSlab>(&shape)) bins.max_depth = slab->tau;
   if (o.max_depth) bins.max_depth = *o.max_depth * scale;
@@ -171,7 +178,8 @@ std::vector<Shape> shapes_of(const MeasureOptions& o) {
 std::vector<MeasureJob> jobs_of(const MeasureOptions& o) {
   MeasureJob job;
   job.boundary = boundary_of(o);
-  job.ior = o.ior;
+  job.ior = o.ior.value_or(1);
+  job.roughness = o.roughness;
   job.incidence = parse_incidence(o.incidence.empty() && o.color ? "diffuse" : o.incidence);
   job.estimator = o.estimator == "analog" ? Estimator::analog : Estimator::implicit;
   job.walks = o.walks;
@@ -198,6 +206,10 @@ std::vector<MeasureJob> jobs_of(const MeasureOptions& o) {
 
 int run_measure(const MeasureOptions& options) {
   const std::vector<MeasureJob> jobs = jobs_of(options);
+  const BinOptions& asked = options.bins;
+  if (options.json && options.csv) refuse("give --json or --csv, not both");
+  if (jobs.size() > 1 && !options.json && asked.angular + asked.radial + asked.depth + asked.path > 0)
+    refuse("bins of a range of media need --json");
   const std::atomic<bool>& stop = watch_interrupts();
   std::vector<MeasuredCase> cases;
   for (const MeasureJob& job : jobs) {
@@ -257,7 +269,10 @@ void add_measure_command(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"exact", "chiang", "van_de_hulst"}));
   verb->add_option("--boundary", o->boundary, "matched, dielectric or diffuse (matched)")
       ->check(CLI::IsMember({"matched", "dielectric", "diffuse"}));
-  verb->add_option("--ior", o->ior, "index inside over outside, 1 to 4 (1)")->check(CLI::Range(1.0, 4.0));
+  verb->add_option("--ior", o->ior, "index inside over outside, 1 to 4 (1; a dielectric needs it)")
+      ->check(CLI::Range(1.0, 4.0));
+  verb->add_option("--roughness", o->roughness, "of a dielectric boundary, 0 to 1 (0: smooth)")
+      ->check(CLI::Range(0.0, 1.0));
   add_bin_options(*verb, *o);
   verb->add_option("--incidence", o->incidence,
                    "normal, cosine=MU or diffuse (normal; diffuse with --color)");

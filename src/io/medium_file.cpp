@@ -75,6 +75,7 @@ void read_surface(TomlTable& table, const Preset* preset, MediumKeys& keys) {
   if (dielectric && !ior && !preset)
     throw Error(table.place("boundary"), "a dielectric boundary needs 'ior', such as ior = 1.5");
   keys.surface.ior = ior.value_or(preset ? preset->ior : 1);
+  keys.surface.roughness = keys.roughness;
 }
 
 // The value of the key; without it that of the preset, and without that an error.

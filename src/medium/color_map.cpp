@@ -4,9 +4,11 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "medium/half_space.h"
+#include "medium/rough_mirror.h"
 
 namespace meander {
 
@@ -97,12 +99,14 @@ double isotropic_color(double s, double one_minus_s) {
 class HalfSpaceAlbedo {
  public:
   HalfSpaceAlbedo(double g, const Surface& surface) : half_space_(make_grid(g, surface), g) {
+    if (is_rough(surface)) rough_ = rough_mirror(half_space_.grid(), surface.roughness, surface.ior);
     for (const double mu : half_space_.grid().mu) {
       mirror_.push_back(is_mirror(surface) ? internal_reflectance(mu, surface.ior) : 0.0);
     }
   }
 
   [[nodiscard]] double absorbed(double albedo) const {
+    if (rough_) return half_space_.absorbed_fraction(albedo, *rough_);
     return half_space_.absorbed_fraction(albedo, mirror_);
   }
 
@@ -110,14 +114,16 @@ class HalfSpaceAlbedo {
   static bool is_mirror(const Surface& surface) {
     return surface.boundary == Boundary::dielectric && surface.ior > 1;
   }
+  static bool is_rough(const Surface& surface) { return is_mirror(surface) && surface.roughness > 0; }
   static AngularGrid make_grid(double g, const Surface& surface) {
-    if (!is_mirror(surface)) return make_gauss_grid(kOrdinates);
+    if (!is_mirror(surface) || is_rough(surface)) return make_gauss_grid(kOrdinates);
     const double critical = std::sqrt((surface.ior - 1) * (surface.ior + 1)) / surface.ior;
     return make_split_grid(g < -0.7 ? kOrdinates : kOrdinates / 2, critical);
   }
 
   HalfSpace half_space_;
   std::vector<double> mirror_;
+  std::optional<SquareMatrix> rough_;
 };
 
 }  // namespace

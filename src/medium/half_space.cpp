@@ -172,6 +172,33 @@ double HalfSpace::absorbed_fraction(double albedo, const std::vector<double>& mi
   return absorbed / entered;
 }
 
+// As above with a full matrix M for the mirror: (1 - M + M loss) x = (1 - M) uniform, because light that is
+// uniform on both sides stays so.
+double HalfSpace::absorbed_fraction(double albedo, const SquareMatrix& mirror) const {
+  assert(mirror.n == static_cast<int>(grid_.mu.size()));
+  const SquareMatrix lost = loss(albedo);
+  SquareMatrix system = multiply(mirror, lost);
+  std::vector<double> flux(lost.n);
+  for (int i = 0; i < lost.n; ++i) flux[i] = std::sqrt(grid_.weight[i] * grid_.mu[i]);
+  std::vector<double> incident = flux;
+  for (int i = 0; i < lost.n; ++i) {
+    for (int j = 0; j < lost.n; ++j) {
+      system.at(i, j) += (i == j ? 1.0 : 0.0) - mirror.at(i, j);
+      incident[i] -= mirror.at(i, j) * flux[j];
+    }
+  }
+  const SquareMatrix inverse = invert(std::move(system));
+  double entered = 0;
+  double absorbed = 0;
+  for (int i = 0; i < lost.n; ++i) {
+    entered += flux[i] * incident[i];
+    double down = 0;
+    for (int j = 0; j < lost.n; ++j) down += inverse.at(i, j) * incident[j];
+    for (int j = 0; j < lost.n; ++j) absorbed += flux[j] * lost.at(j, i) * down;
+  }
+  return absorbed / entered;
+}
+
 SquareMatrix HalfSpace::reflection(double albedo) const {
   const SquareMatrix lost = loss(albedo);
   SquareMatrix result(lost.n);

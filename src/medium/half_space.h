@@ -40,6 +40,10 @@ class HalfSpace {
   /// and keeps from coming in. Full relative precision towards white. Albedo as above.
   [[nodiscard]] double absorbed_fraction(double albedo, const std::vector<double>& mirror) const;
 
+  /// The same below a surface that turns what it sends back: `mirror` is symmetric, in coordinates where
+  /// radiance is weighted by sqrt(weight mu).
+  [[nodiscard]] double absorbed_fraction(double albedo, const SquareMatrix& mirror) const;
+
   /// The symmetric reflection function on the grid: light coming down with radiance I_j at mu_j leaves as
   /// 2 sum_j R(i, j) mu_j weight_j I_j at mu_i; 1 everywhere for a white Lambertian surface. Albedo as above.
   [[nodiscard]] SquareMatrix reflection(double albedo) const;

@@ -8,10 +8,14 @@ namespace meander {
 /// refraction.
 enum class Boundary { matched, diffuse, dielectric };
 
-/// ior is the index inside over the index outside, in [1, 4]; 1 where the boundary is matched.
+/// ior is the index inside over the index outside, in [1, 4]; 1 where the boundary is matched. roughness is
+/// that of a dielectric boundary, in [0, 1]; 0 elsewhere.
 struct Surface {
   Boundary boundary = Boundary::matched;
   double ior = 1;
+  double roughness = 0;
+
+  [[nodiscard]] bool operator==(const Surface&) const noexcept = default;
 };
 
 /// Unpolarised Fresnel reflectance from inside (Born & Wolf 1999, section 1.5.2): cos_i in [0, 1] the cosine

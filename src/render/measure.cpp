@@ -6,6 +6,8 @@
 #include "math/fresnel.h"
 #include "render/parallel.h"
 #include "walk/analytic_worlds.h"
+#include "walk/interface.h"
+#include "walk/rough_interface.h"
 
 namespace meander {
 namespace {
@@ -63,6 +65,7 @@ class MeasuredWalk {
   [[nodiscard]] bool enter(Random& random) {
     const double mu = job_.incidence.diffuse ? std::sqrt(1 - double{random.next()}) : job_.incidence.cosine;
     const auto cosine = static_cast<Real>(mu);
+    if (job_.roughness > 0) return enter_rough(cosine, random);
     const auto ior = static_cast<Real>(job_.ior);
     const Fresnel fresnel = job_.ior == 1 ? Fresnel{0, cosine} : eval_fresnel(cosine, ior);
     if (analog()) {
@@ -79,6 +82,23 @@ class MeasuredWalk {
     else
       walker_.direction = {std::sqrt((1 - fresnel.cos_t) * (1 + fresnel.cos_t)), 0, -fresnel.cos_t};
     return true;
+  }
+
+  // What arrives along the walker's direction, whole: a rough interface decides by chance, with any
+  // estimator.
+  [[nodiscard]] RoughInterface::Sample meet_rough(const Vec3& normal, Random& random) {
+    const RoughDielectric surface{ggx_alpha(static_cast<Real>(job_.roughness)), static_cast<Real>(job_.ior)};
+    const RoughInterface::Sample sample =
+        RoughInterface(normal, normal, surface, walker_.direction).sample(random);
+    walker_.direction = sample.direction;
+    return sample;
+  }
+
+  [[nodiscard]] bool enter_rough(Real cosine, Random& random) {
+    walker_.direction = {std::sqrt((1 - cosine) * (1 + cosine)), 0, -cosine};
+    if (!meet_rough({0, 0, 1}, random).outside) return true;
+    tallied_->specular = 1;
+    return false;
   }
 
   void send_inward(const Vec3& normal, Random& random) {
@@ -102,6 +122,11 @@ class MeasuredWalk {
   // At the surface from inside: lets out what gets out; true when some goes on inside.
   [[nodiscard]] bool stays(const Crossing& exit, Random& random) {
     const Vec3& n = exit.normal;
+    if (job_.roughness > 0) {
+      const bool outside = meet_rough(n, random).outside;
+      if (outside) let_out(exit, 1, glm::dot(walker_.direction, n));
+      return !outside;
+    }
     const bool diffuse = job_.boundary == Boundary::diffuse;
     Real cosine = std::min(glm::dot(walker_.direction, n), Real(1));
     if (diffuse) cosine = std::sqrt(1 - random.next());
@@ -120,7 +145,7 @@ class MeasuredWalk {
     if (diffuse)
       send_inward(n, random);
     else
-      walker_.direction = renormalise(walker_.direction - 2 * cosine * n);
+      walker_.direction = lift_off(renormalise(walker_.direction - 2 * cosine * n), -n);
     return true;
   }
 

@@ -31,7 +31,8 @@ struct MeasureJob {
   double albedo = 0.9;
   double g = 0;
   Boundary boundary = Boundary::matched;
-  double ior = 1;  // index inside over outside, >= 1; 1 with a matched boundary
+  double ior = 1;        // index inside over outside, >= 1; 1 with a matched boundary
+  double roughness = 0;  // of a dielectric boundary, in [0, 1]
   Incidence incidence;
   Estimator estimator = Estimator::implicit;
   std::uint64_t walks = 1'000'000;

@@ -14,6 +14,16 @@ struct InterfaceRay {
   Vec3 refracted;
 };
 
+/// The cosine that a ray reflected inside a curved body sets out with at least. Rounding moves the cosine of
+/// light that total reflection leads along a surface by 1e-7 a bounce; at 0 it would stand still for ever.
+inline constexpr Real kLeastCosine = Real(0x1p-12);
+
+/// `d`, or where it sets out flatter than that to the side of the unit normal `n`, `d` lifted to it.
+[[nodiscard]] inline Vec3 lift_off(const Vec3& d, const Vec3& n) noexcept {
+  const Real cosine = glm::dot(d, n);
+  return cosine >= kLeastCosine ? d : renormalise(d + (kLeastCosine - cosine) * n);
+}
+
 /// `d` travels against the unit normal `n` (d . n < 0); eta is the index ahead over the index behind (Snell's
 /// law).
 [[nodiscard]] inline InterfaceRay meet_interface(const Vec3& d, const Vec3& n, Real eta) noexcept {

@@ -67,7 +67,8 @@ struct PathTracer<G>::Passage {
   void absorbed(const Rgb&) const noexcept {}
   [[nodiscard]] bool stop() const noexcept { return tracer.stop(); }
 
-  /// In a matched body one light is sampled at every collision.
+  /// In a matched body one light is sampled at every collision. Sampling at one collision a walk, drawn by
+  /// what is carried there, was measured: never more efficient by over 4 %, up to 7 times less (README).
   void scattered(const Walker&) noexcept {
     const std::size_t count = tracer.sampled_lights();
     if (material.boundary != Boundary::matched || count == 0) return;
@@ -208,7 +209,7 @@ struct PathTracer<G>::Passage {
     const InterfaceRay ray =
         meet_interface(walker.direction, -crossing.normal, -crossing.shading_normal, 1 / ior());
     if (random.next() < ray.reflectance) {
-      walker.direction = ray.reflected;
+      walker.direction = lift_off(ray.reflected, -crossing.normal);
       place_inside(crossing.point, crossing.normal);
       return std::nullopt;
     }

@@ -85,6 +85,11 @@ refuse '--g must be' measure slab --g 1
 refuse '--tau must be' measure slab --tau 0
 refuse 'not finite' measure halfspace --albedo 1
 refuse 'cosine=MU' measure slab --incidence sideways
+refuse '--roughness needs --boundary dielectric' measure slab --roughness 0.5
+refuse 'dielectric needs --ior' measure slab --boundary dielectric
+refuse '--radius is the range of --radial-bins' measure slab --radius 3
+refuse '--json or --csv' measure slab --json --csv
+refuse 'need --json' measure slab --albedo 0.1:0.9:3 --angular-bins 4
 refuse 'none.exr' compare in/none.exr in/none.exr
 
 # An open mesh is a warning with the number of open edges, not an error.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "medium/rough_mirror.h"
+#include "medium/surface.h"
 #include "medium/table.h"
 
 namespace meander {
@@ -133,6 +135,40 @@ TEST_CASE("black reflects nothing and white all but the millionth that its clamp
     const double expected = 4 / std::sqrt(3.0) * std::sqrt(1e-12 / (1 - g));
     CHECK(1 - half_space.diffuse_reflectance(1) == doctest::Approx(expected).epsilon(2e-3));
   }
+}
+
+TEST_CASE("a rough mirror is symmetric, gains nothing, and is Fresnel's where it is almost smooth") {
+  const AngularGrid grid = make_gauss_grid(16);
+  for (const double roughness : {0.02, 0.5, 1.0}) {
+    const SquareMatrix mirror = rough_mirror(grid, roughness, 1.5);
+    double sum = 0;
+    for (int i = 0; i < mirror.n; ++i) {
+      double out = 0;
+      for (int j = 0; j < mirror.n; ++j) {
+        CHECK(mirror.at(i, j) == doctest::Approx(mirror.at(j, i)));
+        CHECK(mirror.at(i, j) >= 0);
+        out += mirror.at(j, i) * std::sqrt(grid.weight[j] * grid.mu[j] / (grid.weight[i] * grid.mu[i]));
+      }
+      sum += 2 * grid.weight[i] * grid.mu[i] * out;
+      CHECK(out < 1.02);
+    }
+    CHECK(sum < 1);
+    if (roughness == 0.02) CHECK(sum == doctest::Approx(diffuse_internal_reflectance(1.5)).epsilon(0.005));
+  }
+}
+
+TEST_CASE("a full matrix that is diagonal stands for the mirror of a smooth surface") {
+  const AngularGrid grid = make_gauss_grid(16);
+  const HalfSpace half_space(grid, 0.3);
+  std::vector<double> diagonal;
+  SquareMatrix full(16);
+  for (int i = 0; i < 16; ++i) {
+    diagonal.push_back(internal_reflectance(grid.mu[i], 1.4));
+    full.at(i, i) = diagonal.back();
+  }
+  for (const double albedo : {0.0, 0.5, 0.99, 0.99999})
+    CHECK(half_space.absorbed_fraction(albedo, full) ==
+          doctest::Approx(half_space.absorbed_fraction(albedo, diagonal)).epsilon(1e-7));
 }
 
 }  // namespace meander

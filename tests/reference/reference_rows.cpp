@@ -1,13 +1,25 @@
-// Runs the rows of the reference tables through `measure` and holds the z-scores to what chance allows: the
-// largest |z| to the Sidak bound of the family at level 1e-3, the mean of z^2 to within 4 sqrt(2 / N) of 1.
+// Runs rows of the reference tables through `measure` and holds the z-scores to what chance allows: the
+// largest |z| to the Sidak bound of the family at level 1e-3, the mean of z^2 (first value of each run) to
+// within 4 sqrt(2 / N) of 1.
+//
+//   reference_rows                      every seventh row at a relative standard error of 1 %
+//   reference_rows --all                every row at 0.2 %; tests/reference/z_scores.csv is written as rows
+//   end reference_rows --all --resume       keeps the rows that the file already has reference_rows --rows
+//   TEXT          only the rows whose name contains TEXT, at 0.2 %; no file
+//   ... --threads N                     all threads by default
+//
+// A row's walks are as many as bring each of its totals (R, T; of spheres the absorbed and the escaping
+// fraction) to the target, by a pilot run. The unscattered transmittance comes along at
+// whatever error it then has, and counts where at least 200 unscattered walks are expected.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <string>
-#include <vector>
+#include <stdexcept>
 
-#include "render/measure.h"
+#include "core/timer.h"
+#include "reference/reference_cases.h"
 #include "render/parallel.h"
 #include "stats/distributions.h"
 #include "support/csv.h"
@@ -16,174 +28,173 @@ using namespace meander;
 
 namespace {
 
-struct Expected {
-  const char* quantity;
-  double value;
+struct Options {
+  bool all = false;
+  bool resume = false;
+  std::string rows;
+  int threads = hardware_threads();
+  [[nodiscard]] double target() const { return all || !rows.empty() ? 0.002 : 0.01; }
 };
 
-struct Case {
+struct Score {
   std::string name;
-  MeasureJob job;
-  std::vector<Expected>
-      expected;  // the first one counts for the mean of z^2: those of one run are not independent
+  std::string quantity;
+  double exact = 0;
+  double measured = 0;
+  double error = 0;
+  double z = 0;
+  double walks = 0;
+  bool first = false;
+  bool settles = false;
 };
 
-Incidence incidence_of(const CsvTable& table, std::size_t row) {
-  if (table.text(row, "incidence") == "diffuse") return {true, 1};
-  return {false, table.number(row, "mu0")};
+const std::string kFile = std::string(MEANDER_SOURCE_DIR) + "/tests/reference/z_scores.csv";
+constexpr std::uint64_t kPilot = 20000;
+
+Options parse(int argc, char** argv) {
+  Options o;
+  for (int i = 1; i < argc; ++i) {
+    const std::string arg = argv[i];
+    const bool last = i + 1 == argc;
+    if (arg == "--all")
+      o.all = true;
+    else if (arg == "--resume")
+      o.resume = true;
+    else if (arg == "--rows" && !last)
+      o.rows = argv[++i];
+    else if (arg == "--threads" && !last)
+      o.threads = std::max(std::atoi(argv[++i]), 1);
+    else
+      throw std::runtime_error("unknown option " + arg + " (--all, --resume, --rows TEXT, --threads N)");
+  }
+  return o;
 }
 
-MeasureJob medium_job(double albedo, double g, double eta) {
-  MeasureJob job;
-  job.albedo = albedo;
-  job.g = g;
-  job.ior = eta;
-  job.boundary = eta == 1 ? Boundary::matched : Boundary::dielectric;
-  job.threads = hardware_threads();
-  return job;
+// The largest relative standard error among the totals.
+double coarsest_total(const Measurement& m, const std::vector<Expected>& expected) {
+  double coarsest = 0;
+  for (const Expected& e : expected)
+    if (e.settles) coarsest = std::max(coarsest, quantity_of(m, e.quantity).standard_error() / e.value);
+  return coarsest;
 }
 
-void add_slabs(std::vector<Case>& cases) {
-  const CsvTable t = reference_table("a_slab.csv");
-  for (std::size_t row = 0; row < t.rows.size(); ++row) {
-    MeasureJob job = medium_job(t.number(row, "alpha"), t.number(row, "g"), t.number(row, "eta"));
-    job.shape = MeasuredSlab{t.number(row, "tau")};
-    job.incidence = incidence_of(t, row);
-    cases.push_back({"a_slab:" + std::to_string(row + 2),
-                     job,
-                     {{"reflectance", t.number(row, "R_total")},
-                      {"transmittance", t.number(row, "T_total")},
-                      {"unscattered_transmittance", t.number(row, "T_unscattered")}}});
-  }
-}
-
-void add_half_spaces(std::vector<Case>& cases) {
-  const CsvTable b1 = reference_table("b1_halfspace.csv");
-  for (std::size_t row = 0; row < b1.rows.size(); ++row) {
-    MeasureJob job = medium_job(b1.number(row, "alpha"), b1.number(row, "g"), b1.number(row, "eta"));
-    job.shape = MeasuredHalfSpace{};
-    job.incidence = incidence_of(b1, row);
-    cases.push_back(
-        {"b1_halfspace:" + std::to_string(row + 2), job, {{"reflectance", b1.number(row, "R_total")}}});
-  }
-  const CsvTable b2 = reference_table("b2_halfspace_iso_vs_albedo.csv");
-  for (std::size_t row = 0; row < b2.rows.size(); ++row) {
-    const std::pair<const char*, Incidence> columns[]{{"R_diffuse", {true, 1}},
-                                                      {"R_mu0_1", {false, 1}},
-                                                      {"R_mu0_0.5", {false, 0.5}},
-                                                      {"R_mu0_0.1", {false, 0.1}}};
-    for (const auto& [column, incidence] : columns) {
-      MeasureJob job = medium_job(b2.number(row, "alpha"), 0, 1);
-      job.shape = MeasuredHalfSpace{};
-      job.incidence = incidence;
-      cases.push_back({std::string("b2_halfspace_iso:") + std::to_string(row + 2) + ":" + column,
-                       job,
-                       {{"reflectance", b2.number(row, column)}}});
-    }
-  }
-  const CsvTable b4 = reference_table("b4_halfspace_hg_vs_albedo.csv");
-  for (std::size_t row = 0; row < b4.rows.size(); ++row) {
-    for (const bool diffuse : {true, false}) {
-      const char* column = diffuse ? "R_diffuse_total" : "R_normal_total";
-      MeasureJob job = medium_job(b4.number(row, "alpha"), b4.number(row, "g"), b4.number(row, "eta"));
-      job.shape = MeasuredHalfSpace{};
-      job.incidence = {diffuse, 1};
-      cases.push_back({std::string("b4_halfspace_hg:") + std::to_string(row + 2) + ":" + column,
-                       job,
-                       {{"reflectance", b4.number(row, column)}}});
-    }
-  }
-}
-
-void add_spheres(std::vector<Case>& cases) {
-  const CsvTable f1 = reference_table("f1_sphere_iso.csv");
-  for (std::size_t row = 0; row < f1.rows.size(); ++row) {
-    MeasureJob job = medium_job(f1.number(row, "alpha"), 0, 1);
-    job.shape = MeasuredSphere{f1.number(row, "optical_radius")};
-    job.incidence = {true, 1};
-    cases.push_back({"f1_sphere_iso:" + std::to_string(row + 2),
-                     job,
-                     {{"absorptance", f1.number(row, "absorbed_fraction")},
-                      {"reflectance", f1.number(row, "escape_fraction")},
-                      {"unscattered_transmittance", f1.number(row, "unscattered_fraction")}}});
-  }
-  const CsvTable f3 = reference_table("f3_sphere_hg_eta.csv");
-  for (std::size_t row = 0; row < f3.rows.size(); ++row) {
-    MeasureJob job = medium_job(f3.number(row, "alpha"), f3.number(row, "g"), f3.number(row, "eta"));
-    job.shape = MeasuredSphere{f3.number(row, "optical_radius")};
-    job.incidence = {true, 1};
-    cases.push_back({"f3_sphere_hg_eta:" + std::to_string(row + 2),
-                     job,
-                     {{"absorptance", f3.number(row, "absorbed_fraction")},
-                      {"reflectance", f3.number(row, "escape_fraction_incl_surface_reflection")}}});
-  }
-}
-
-const Moments& quantity_of(const Measurement& m, const std::string& name) {
-  if (name == "transmittance") return m.transmittance;
-  if (name == "unscattered_transmittance") return m.unscattered_transmittance;
-  if (name == "absorptance") return m.absorptance;
-  return m.reflectance;
-}
-
-// As many walks as bring the first quantity's relative standard error to `target`, by a pilot run; `limit`
-// caps them.
-Measurement measure_to(MeasureJob job, const Expected& expected, double target, std::uint64_t limit) {
+// Walks for which every total's relative standard error is `target`. The pilot goes on until it knows that
+// error to a few per cent.
+std::uint64_t walks_for(MeasureJob job, const std::vector<Expected>& expected, double target) {
   const std::atomic<bool> stop{false};
-  job.walks = 20000;
-  job.seed = 1;
-  const Moments pilot = quantity_of(measure(job, stop), expected.quantity);
-  const double relative = std::max(pilot.standard_error(), 1e-6) / expected.value;
-  const double needed = 1.1 * 20000 * (relative / target) * (relative / target);
-  job.walks = static_cast<std::uint64_t>(std::clamp(needed, 20000.0, static_cast<double>(limit)));
-  job.seed = 0;
-  return measure(job, stop);
+  double needed = kPilot;
+  for (job.walks = kPilot;; job.walks *= 4) {
+    const Measurement pilot = measure(job, stop);
+    const double coarsest = coarsest_total(pilot, expected);
+    needed = 1.15 * static_cast<double>(job.walks) * (coarsest / target) * (coarsest / target);
+    if (coarsest < 0.03 || static_cast<double>(job.walks) > needed) break;
+  }
+  return static_cast<std::uint64_t>(std::max(needed, static_cast<double>(kPilot)));
+}
+
+// Rows share no random numbers, pilots neither: the scores of different rows are independent.
+std::vector<Score> run_case(ReferenceCase c, std::size_t index, const Options& options) {
+  const std::atomic<bool> stop{false};
+  c.job.threads = options.threads;
+  c.job.seed = 2 * index + 1;
+  c.job.walks = walks_for(c.job, c.expected, options.target());
+  c.job.seed = 2 * index;
+  Measurement m = measure(c.job, stop);
+  // Where the pilot was too hopeful the same walks go on.
+  while (coarsest_total(m, c.expected) > options.target()) {
+    c.job.walks += c.job.walks / 4;
+    m = measure(c.job, stop);
+  }
+  std::vector<Score> scores;
+  for (const Expected& e : c.expected) {
+    const Moments& q = quantity_of(m, e.quantity);
+    const double walks = static_cast<double>(m.walks);
+    if (!e.settles && e.value * walks < 200) continue;
+    // What does not vary (nothing but a specular sum) must be right to single precision, and has no z^2.
+    const double error = std::max(q.standard_error(), 1e-6 * e.value);
+    const bool counts = &e == &c.expected[0] && error == q.standard_error();
+    scores.push_back(
+        {c.name, e.quantity, e.value, q.mean, error, (q.mean - e.value) / error, walks, counts, e.settles});
+  }
+  return scores;
+}
+
+void write(std::ofstream& file, const Score& s) {
+  char line[400];
+  std::snprintf(line, sizeof line, "%s,%s,%.12g,%.9g,%.3g,%.3g,%.3f,%.0f,%d,%d\n", s.name.c_str(),
+                s.quantity.c_str(), s.exact, s.measured, s.error, s.error / s.exact, s.z, s.walks, s.first,
+                s.settles);
+  file << line << std::flush;
+}
+
+std::vector<Score> read_scores() {
+  std::vector<Score> scores;
+  const CsvTable t = read_csv(kFile);
+  for (std::size_t i = 0; i < t.rows.size(); ++i)
+    scores.push_back({t.text(i, "row"), t.text(i, "quantity"), t.number(i, "exact"), t.number(i, "measured"),
+                      t.number(i, "standard_error"), t.number(i, "z"), t.number(i, "walks"),
+                      t.number(i, "first") != 0, t.number(i, "total") != 0});
+  return scores;
+}
+
+// The verdict on the whole family; true when it passes.
+bool report(const std::vector<Score>& scores, double target) {
+  double worst = 0;
+  double squares = 0;
+  int runs = 0;
+  int coarse = 0;
+  for (const Score& s : scores) {
+    worst = std::max(worst, std::abs(s.z));
+    if (s.first) squares += s.z * s.z, ++runs;
+    coarse += s.settles && s.error / s.exact > target;
+    if (std::abs(s.z) > 3.5) std::printf("%s %s: z %.2f\n", s.name.c_str(), s.quantity.c_str(), s.z);
+  }
+  const double bound = two_sided_threshold(sidak_level(1e-3, scores.size()));
+  const double width = 4 * std::sqrt(2.0 / runs);
+  const bool passed = worst < bound && std::abs(squares / runs - 1) < width;
+  std::printf(
+      "%zu values of %d runs: largest |z| %.2f (bound %.2f), mean of z^2 %.3f (1 +- %.3f), %d totals above "
+      "%.1f %% relative standard error: %s\n",
+      scores.size(), runs, worst, bound, squares / runs, width, coarse, 100 * target,
+      passed ? "passed" : "FAILED");
+  return passed;
+}
+
+bool run(const Options& options) {
+  const std::vector<ReferenceCase> cases = reference_cases();
+  std::vector<Score> scores;
+  if (options.resume) scores = read_scores();
+  const bool keep = options.all && options.rows.empty();
+  std::ofstream file;
+  if (keep) file.open(kFile, options.resume ? std::ios::app : std::ios::trunc);
+  if (keep && !options.resume)
+    file << "row,quantity,exact,measured,standard_error,relative_standard_error,z,walks,first,total\n";
+  const bool spread = !options.all && options.rows.empty();
+  const Timer timer;
+  for (std::size_t i = 0; i < cases.size(); i += spread ? 7 : 1) {
+    const std::string& name = cases[i].name;
+    if (name.find(options.rows) == std::string::npos) continue;
+    if (std::any_of(scores.begin(), scores.end(), [&](const Score& s) { return s.name == name; })) continue;
+    for (const Score& s : run_case(cases[i], i, options)) {
+      if (keep) write(file, s);
+      if (!spread)
+        std::printf("%zu/%zu %s %s: z %.2f, %.0f walks, %.1f s\n", i + 1, cases.size(), name.c_str(),
+                    s.quantity.c_str(), s.z, s.walks, timer.seconds());
+      scores.push_back(s);
+    }
+    std::fflush(stdout);
+  }
+  if (scores.empty()) throw std::runtime_error("no row is called " + options.rows);
+  return report(scores, options.target());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool all = argc > 1 && std::strcmp(argv[1], "--all") == 0;
-  const double target = all ? 0.002 : 0.01;
-  std::vector<Case> cases;
-  add_slabs(cases);
-  add_half_spaces(cases);
-  add_spheres(cases);
-  std::ofstream file;
-  if (all) file.open(std::string(MEANDER_SOURCE_DIR) + "/tests/reference/z_scores.csv");
-  if (all) file << "case,quantity,exact,measured,standard_error,relative_standard_error,z,walks\n";
-  std::vector<double> scores;
-  double squares = 0;
-  int runs = 0;
-  int coarse = 0;
-  for (std::size_t i = 0; i < cases.size(); i += all ? 1 : 7) {
-    const Case& c = cases[i];
-    const Measurement m = measure_to(c.job, c.expected[0], target, all ? 100'000'000 : 2'000'000);
-    for (std::size_t k = 0; k < c.expected.size(); ++k) {
-      const Expected& e = c.expected[k];
-      const Moments& q = quantity_of(m, e.quantity);
-      // Rare events: fewer than 50 of them are no normal variable.
-      if (!(e.value * static_cast<double>(m.walks) > 50) || q.standard_error() == 0) continue;
-      const double z = (q.mean - e.value) / q.standard_error();
-      scores.push_back(z);
-      if (k == 0) squares += z * z, ++runs;
-      coarse += q.standard_error() / e.value > target;
-      if (std::abs(z) > 3.5) std::printf("%s %s: z %.2f\n", c.name.c_str(), e.quantity, z);
-      if (all)
-        file << c.name << ',' << e.quantity << ',' << e.value << ',' << q.mean << ',' << q.standard_error()
-             << ',' << q.standard_error() / e.value << ',' << z << ',' << m.walks << '\n';
-    }
+  try {
+    return run(parse(argc, argv)) ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "reference_rows: %s\n", error.what());
+    return 2;
   }
-  double worst = 0;
-  for (const double z : scores) worst = std::max(worst, std::abs(z));
-  const double bound = two_sided_threshold(sidak_level(1e-3, scores.size()));
-  const double mean_square = squares / runs;
-  const double width = 4 * std::sqrt(2.0 / runs);
-  const bool passed = worst < bound && std::abs(mean_square - 1) < width;
-  std::printf(
-      "%zu values of %d runs: largest |z| %.2f (bound %.2f), mean of z^2 %.3f (1 +- %.3f), %d above %.1f %% "
-      "relative standard error: %s\n",
-      scores.size(), runs, worst, bound, mean_square, width, coarse, 100 * target,
-      passed ? "passed" : "FAILED");
-  return passed ? 0 : 1;
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "io/mesh_file.h"
+#include "scene/scene.h"
 #include "stats/distributions.h"
 #include "stats/hypothesis.h"
 #include "stats/moments.h"
@@ -59,39 +60,47 @@ struct UniformEntry {
   }
 };
 
+// Scores the mean path and the mean number of scatterings in one medium, given by the number of scatterings.
+void score_walks(const MeshBody& body, const UniformEntry& entry, double scatterings, double g,
+                 std::vector<double>& scores) {
+  const double expected = 4 * signed_volume(entry.mesh) / surface_area(entry.mesh);
+  const double sigma = scatterings / expected;
+  const WalkModel model{{Rgb(static_cast<Real>(sigma)), Rgb(1), static_cast<Real>(g)}, Estimator::implicit};
+  Moments length;
+  Moments order;
+  std::uint64_t leaked = 0;
+  for (std::uint32_t i = 0; i < 12000; ++i) {
+    Random random = stream(2, 0, i);
+    Walker walker;
+    entry.start(walker, random, largest(body.half_size()) * Real(0x1p-21));
+    SilentEvents events;
+    leaked += random_walk(body, model, walker, random, events).end == WalkEnd::leaked;
+    length.add(events.path);
+    order.add(walker.weight.order);
+  }
+  CHECK(leaked == 0);
+  scores.push_back(z_score(length.mean, expected, length.standard_error()));
+  scores.push_back(z_score(order.mean, scatterings, order.standard_error()));
+}
+
 void check_mean_paths(const Mesh& mesh, std::vector<double>& scores) {
   const Device device = make_device(1);
   DVec3 center;
   const MeshBody body(device.get(), mesh, DMat3(1), center);
   const UniformEntry entry(mesh, center);
-  const double expected = 4 * signed_volume(mesh) / surface_area(mesh);
-  for (const double scatterings : {0.5, 3.0, 20.0}) {
-    for (const double g : {-0.5, 0.0, 0.8}) {
-      const double sigma = scatterings / expected;
-      const WalkModel model{{Rgb(static_cast<Real>(sigma)), Rgb(1), static_cast<Real>(g)},
-                            Estimator::implicit};
-      Moments length;
-      Moments order;
-      std::uint64_t leaked = 0;
-      for (std::uint32_t i = 0; i < 12000; ++i) {
-        Random random = stream(2, 0, i);
-        Walker walker;
-        entry.start(walker, random, largest(body.half_size()) * Real(0x1p-21));
-        SilentEvents events;
-        leaked += random_walk(body, model, walker, random, events).end == WalkEnd::leaked;
-        length.add(events.path);
-        order.add(walker.weight.order);
-      }
-      CHECK(leaked == 0);
-      scores.push_back(z_score(length.mean, expected, length.standard_error()));
-      scores.push_back(z_score(order.mean, scatterings, order.standard_error()));
-    }
+  for (const double scatterings : {0.5, 3.0, 20.0})
+    for (const double g : {-0.5, 0.0, 0.8}) score_walks(body, entry, scatterings, g, scores);
+  for (const DMat3& map : {DMat3(1e-3), DMat3(1e3), linear_part({{}, {20, 77, -40}, DVec3(1)})}) {
+    Mesh moved = mesh;
+    for (DVec3& position : moved.positions) position = map * position;
+    const MeshBody moved_body(device.get(), mesh, map, center);
+    score_walks(moved_body, UniformEntry(moved, center), 3, 0.8, scores);
   }
 }
 
 }  // namespace
 
-TEST_CASE("the mean path in every closed mesh is 4V/S, whatever the medium, and no walk is lost") {
+TEST_CASE("the mean path in every closed mesh is 4V/S, whatever the medium, size and orientation") {
   std::vector<double> scores;
   check_mean_paths(make_torus_knot(), scores);
   check_mean_paths(make_sphere_mesh(30), scores);

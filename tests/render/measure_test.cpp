@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "medium/color_map.h"
 #include "render/measure.h"
 #include "stats/hypothesis.h"
 
@@ -68,4 +69,50 @@ TEST_CASE("an interrupted measurement keeps whole blocks only") {
   MeasureJob job;
   job.shape = MeasuredHalfSpace{};
   CHECK(measure(job, stop).walks == 0);
+}
+
+TEST_CASE("a half-space under a rough interface delivers the colour it was asked for") {
+  const struct {
+    double color, g, ior, roughness;
+  } cases[]{{0.2, 0, 1.5, 1}, {0.5, 0, 1.33, 0.2}, {0.5, 0.8, 1.5, 0.5}, {0.8, -0.5, 1.5, 0.7}};
+  for (const auto& c : cases) {
+    MeasureJob job;
+    job.shape = MeasuredHalfSpace{};
+    job.boundary = Boundary::dielectric;
+    job.g = c.g;
+    job.ior = c.ior;
+    job.roughness = c.roughness;
+    job.albedo = ColorMap(c.g, {Boundary::dielectric, c.ior, c.roughness}).albedo(c.color);
+    job.incidence = {true, 1};
+    job.walks = 500000;
+    job.threads = 2;
+    const Measurement m = measure(job, kRun);
+    const double entered = 1 - m.specular_reflectance.mean;
+    const double delivered = (m.reflectance.mean - m.specular_reflectance.mean) / entered;
+    CAPTURE(c.color);
+    CAPTURE(delivered);
+    CHECK(std::abs(delivered - c.color) < 0.002);
+    // The smooth curve would miss by more than the bound.
+    const double smooth = ColorMap(c.g, {Boundary::dielectric, c.ior}).color(job.albedo);
+    if (c.roughness >= 0.5) CHECK(std::abs(smooth - c.color) > 0.004);
+  }
+}
+
+TEST_CASE("a rough interface of almost no roughness measures as the smooth one") {
+  MeasureJob job;
+  job.shape = MeasuredSphere{2};
+  job.boundary = Boundary::dielectric;
+  job.ior = 1.5;
+  job.incidence = {true, 1};
+  job.walks = 200000;
+  job.threads = 2;
+  const Measurement smooth = measure(job, kRun);
+  job.roughness = 0.02;
+  job.seed = 1;
+  const Measurement rough = measure(job, kRun);
+  const auto differ = [](const Moments& a, const Moments& b) {
+    return std::abs(two_sample_z(a.mean, a.standard_error(), b.mean, b.standard_error()));
+  };
+  CHECK(differ(smooth.absorptance, rough.absorptance) < 4);
+  CHECK(differ(smooth.specular_reflectance, rough.specular_reflectance) < 4);
 }

@@ -2,6 +2,7 @@
 
 #include "math/random.h"
 #include "math/warp.h"
+#include "walk/analytic_worlds.h"
 #include "walk/interface.h"
 
 using namespace meander;
@@ -46,5 +47,26 @@ TEST_CASE("a shading normal never sends a ray through the surface the wrong way"
     const InterfaceRay ray = meet_interface(d, {0, 0, 1}, shading, i % 2 ? Real(1.5) : Real(1 / 1.5));
     CHECK(ray.reflected.z > 0);
     if (ray.reflectance < 1) CHECK(ray.refracted.z < 0);
+  }
+}
+
+TEST_CASE("light that total reflection leads along a sphere does not come to a stop") {
+  const SphereWorld world{2};
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    Random random = stream(1, 0, i);
+    const Vec2 u{random.next(), random.next()};
+    const Vec3 normal = sample_sphere(u);
+    const Real cosine = std::pow(Real(10), -2 - 6 * random.next());
+    Vec3 position = Real(2) * normal;
+    Vec3 direction =
+        renormalise(std::sqrt(1 - cosine * cosine) * make_frame(normal).tangent - cosine * normal);
+    for (int bounce = 0; bounce < 5000; ++bounce) {
+      const Crossing crossing = world.first_crossing(position, direction, Real(1e9));
+      position = crossing.point;
+      if (bounce > 0) REQUIRE(crossing.distance > Real(1e-4));
+      const InterfaceRay ray = meet_interface(direction, -crossing.normal, Real(1) / Real(1.5));
+      REQUIRE(ray.reflectance == 1);
+      direction = lift_off(ray.reflected, -crossing.normal);
+    }
   }
 }
