@@ -21,7 +21,8 @@ class ColorMap {
   /// diffuse_internal_reflectance. Rough dielectric is solved with a table of what the facets send back,
   /// within 2e-3. Smooth dielectric is solved with Fresnel's mirror inside. Within 2.5e-5 for -0.7 <= g <=
   /// 0.95, 1e-4 for -0.95 <= g < -0.7 and 1e-4 for 0.95 < g; stronger backward peaks 2e-4 up to ior 2, 1.5e-3
-  /// up to 4. Takes about 8 ms, for g < -0.7 60 ms; the round trip of a colour is 1e-6 for |g| <= 0.999.
+  /// up to 4. Takes about 8 ms, for g < -0.7 60 ms, rough 50 ms; the round trip of a colour is 1e-6 for |g|
+  /// <= 0.999.
   explicit ColorMap(double g, Surface surface = {});
 
   /// albedo in [0, 1] to colour in [0, 1].
