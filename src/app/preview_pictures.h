@@ -18,10 +18,10 @@ namespace meander {
 /// A picture that is kept: of the scene as it then was, or from a file.
 struct Snapshot {
   std::string label;
-  std::optional<SceneDocument> document;  // none for a file
-  std::shared_ptr<const LiveFrame> frame;     // none for a file
-  Image linear;                           // of a file: three channels or more
-  std::uint64_t version = 0;              // names what it holds to textures
+  std::optional<SceneDocument> document;   // none for a file
+  std::shared_ptr<const LiveFrame> frame;  // none for a file
+  Image linear;                            // of a file: three channels or more
+  std::uint64_t version = 0;               // names what it holds to textures
   std::unique_ptr<Picture> thumbnail;
 };
 
@@ -37,7 +37,9 @@ class PreviewPictures {
   [[nodiscard]] const std::shared_ptr<const LiveFrame>& live() const noexcept { return live_; }
   [[nodiscard]] const std::shared_ptr<const LiveFrame>& part() const noexcept { return part_; }
   /// The one of these that is newer.
-  [[nodiscard]] const std::shared_ptr<const LiveFrame>& newest() const noexcept { return part_ ? part_ : live_; }
+  [[nodiscard]] const std::shared_ptr<const LiveFrame>& newest() const noexcept {
+    return part_ ? part_ : live_;
+  }
 
   /// Of the newest frame: the mean number of scatterings over its pixels, weighed by their light.
   [[nodiscard]] double mean_scatterings() const noexcept { return mean_scatterings_; }

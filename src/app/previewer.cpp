@@ -18,7 +18,7 @@ constexpr double kRefineSeconds = 0.15;  // a held drag that rests this long is 
 constexpr double kTickSeconds = 0.1;     // the status line's pace while the session works
 constexpr double kMessageSeconds = 6;
 constexpr float kBackdrop = 0.105f;  // around the picture
-constexpr int kSettleFrames = 3;  // Dear ImGui needs some frames to come to rest
+constexpr int kSettleFrames = 3;     // Dear ImGui needs some frames to come to rest
 
 std::unique_ptr<Session> make_session(const PreviewSettings& settings) {
   return std::make_unique<Session>(settings.threads);

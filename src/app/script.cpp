@@ -12,9 +12,9 @@
 namespace meander {
 namespace {
 
-constexpr std::array<std::string_view, 16> kVerbs{"set",   "wait-spp", "wait",  "key",      "move",
-                                                  "press", "release",  "click", "drag",     "scroll",
-                                                  "text",  "drop",     "size",  "snapshot", "quit", "wait-image"};
+constexpr std::array<std::string_view, 16> kVerbs{"set",     "wait-spp", "wait", "key",       "move", "press",
+                                                  "release", "click",    "drag", "scroll",    "text", "drop",
+                                                  "size",    "snapshot", "quit", "wait-image"};
 constexpr std::array<std::string_view, 3> kButtons{"left", "right", "middle"};
 constexpr int kDragSteps = 12;
 

@@ -32,7 +32,8 @@ struct SizeStep {
 };
 struct QuitStep {};
 
-using ScriptStep = std::variant<SetStep, WaitSppStep, WaitImageStep, WaitStep, EventStep, SnapshotStep, SizeStep, QuitStep>;
+using ScriptStep =
+    std::variant<SetStep, WaitSppStep, WaitImageStep, WaitStep, EventStep, SnapshotStep, SizeStep, QuitStep>;
 
 /// One step and the line it stands in, for messages.
 struct ScriptLine {

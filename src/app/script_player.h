@@ -14,7 +14,7 @@ namespace meander {
 struct ScriptStage {
   std::function<void(const std::string&)> apply;  // an edit; throws Error
   std::function<void(const InputEvent&)> feed;    // an event of keyboard or mouse
-  std::function<bool()> shows_edits;                       // whether the picture is of all edits so far
+  std::function<bool()> shows_edits;              // whether the picture is of all edits so far
   std::function<std::uint64_t()> spp;  // samples a pixel of the picture that all edits so far ask for
   std::function<void(const std::string&)> write_snapshot;  // the frame last drawn, to a PNG
   std::function<void(int, int)> resize;

@@ -11,11 +11,10 @@ constexpr std::size_t kKept = 32;
 
 ColorMap ColorMaps::of(double g, Surface surface) {
   // A matched surface has no index, whatever stands there.
-  if (surface.boundary == Boundary::matched) surface.ior = 1;
+  if (surface.boundary == Boundary::matched) surface = {};
   const std::lock_guard lock(mutex_);
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.map.g() == g && entry.surface.boundary == surface.boundary &&
-           entry.surface.ior == surface.ior;
+    return entry.map.g() == g && entry.surface == surface;
   });
   if (found != entries_.end()) {
     std::rotate(found, found + 1, entries_.end());

@@ -162,7 +162,7 @@ void asked_and_delivered(const Ui& ui, const MaterialModel& model) {
 const ColorMap& color_map(const Ui& ui, const MaterialDescription& now) {
   KeptColorMap& kept = ui.state.color_map;
   const bool same =
-      kept.g == now.g && kept.surface.boundary == now.surface.boundary && kept.surface.ior == now.surface.ior;
+      kept.g == now.g && kept.surface == now.surface;
   if (!same && !ImGui::IsAnyItemActive()) kept = {now.g, now.surface, ColorMap(now.g, now.surface)};
   return kept.map;
 }

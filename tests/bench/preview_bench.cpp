@@ -1,6 +1,6 @@
-// The previewer's own speed, off-screen with software OpenGL at 1280 x 720: from an edit to the first new picture drawn,
-// pictures a second under a camera drag, frames a second of the interface while all threads trace. The noise reached
-// stands beside. Never a test: timings are for reading.
+// The previewer's own speed, off-screen with software OpenGL at 1280 x 720: from an edit to the first new
+// picture drawn, pictures a second under a camera drag, frames a second of the interface while all threads
+// trace. The noise reached stands beside. Never a test: timings are for reading.
 //   preview_bench [SCENE] [EDITS]
 #include <algorithm>
 #include <chrono>
@@ -29,8 +29,9 @@ double quantile(std::vector<double> values, double q) {
 }
 
 void report(const char* what, const std::vector<double>& milliseconds) {
-  std::printf("%-46s median %7.1f ms   p95 %7.1f ms   max %7.1f ms   of %zu\n", what, quantile(milliseconds, 0.5),
-              quantile(milliseconds, 0.95), quantile(milliseconds, 1), milliseconds.size());
+  std::printf("%-46s median %7.1f ms   p95 %7.1f ms   max %7.1f ms   of %zu\n", what,
+              quantile(milliseconds, 0.5), quantile(milliseconds, 0.95), quantile(milliseconds, 1),
+              milliseconds.size());
 }
 
 class Bench {
@@ -150,7 +151,8 @@ int main(int argc, char** argv) {
   bench.run(1, false);
   const int frames = bench.run(3, true);
   const auto& newest = bench.previewer().pictures().newest();
-  std::printf("interface while all threads trace: %.1f frames a second; the picture then: %llu spp, noise %.0f %%\n",
-              frames / 3.0, static_cast<unsigned long long>(newest->spp), 100 * newest->noise);
+  std::printf(
+      "interface while all threads trace: %.1f frames a second; the picture then: %llu spp, noise %.0f %%\n",
+      frames / 3.0, static_cast<unsigned long long>(newest->spp), 100 * newest->noise);
   return 0;
 }

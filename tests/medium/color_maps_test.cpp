@@ -8,8 +8,11 @@ using namespace meander;
 
 TEST_CASE("a kept map is the map that would be made, for its own g and surface alone") {
   ColorMaps maps;
-  const Surface surfaces[] = {
-      {}, {Boundary::diffuse, 1.5}, {Boundary::dielectric, 1.5}, {Boundary::dielectric, 1.3}};
+  const Surface surfaces[] = {{},
+                              {Boundary::diffuse, 1.5},
+                              {Boundary::dielectric, 1.5},
+                              {Boundary::dielectric, 1.3},
+                              {Boundary::dielectric, 1.5, 0.8}};
   for (int round = 0; round < 2; ++round)
     for (const Surface& surface : surfaces)
       for (const double g : {0.0, 0.5, -0.3}) {
