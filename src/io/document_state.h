@@ -23,21 +23,21 @@ struct DocumentState {
 /// Errors: Error with the place.
 [[nodiscard]] DocumentState parse_document(const std::string& text, const std::string& path);
 
-/// Structural edits of a scene file; whether the result reads is left to the caller. `keep_form` of a changed
-/// light: a grey value stays one number where it was one.
+/// Structural edits of a parsed scene file; whether the result reads is left to the caller. A grey colour of
+/// a light stays one number where it was one. Error at the place when there is no light of this name.
 void write_lights(toml::table& document, const std::vector<Light>& lights);
 void write_light(toml::table& document, const std::string& name, const Light& light, const Place& place);
 
-/// The environment's table with one of radiance, image and sky in the place of the others.
+/// One of radiance, image and sky in the place of the others; rotation and scale stay where it replaces its
+/// like.
 void write_environment(toml::table& document, std::string_view key, const toml::node& value);
 
-/// Puts a mesh in the place of an object's shape: `old_object` as it stands in the scene, `mesh` already read
-/// with the up_axis that `keeps_turn` leaves.
+/// A mesh in the place of an object's shape, fitted to `old_object`, which is the object as the scene has it.
+/// `mesh` is the file at `path`, read with the up_axis that is_z_up says.
 void write_object_mesh(toml::table& object, const std::string& path, const Object& old_object,
                        const std::shared_ptr<const Mesh>& mesh);
 
-/// Whether an object's table has a mesh, whose up_axis and rotation another mesh takes over; and that
-/// up_axis.
+/// Whether a mesh in the place of the object's shape is read with z up: when the old one is a mesh that was.
 [[nodiscard]] bool is_z_up(const toml::table& object);
 
 /// The names of files in the table that are relative, as seen from another scene file's folder.

@@ -46,6 +46,12 @@ SceneDocument SceneDocument::from_text(const std::string& text, const std::strin
   return {std::move(state), std::move(cache)};
 }
 
+SceneDocument SceneDocument::reopened() const {
+  auto state = std::make_shared<DocumentState>(open_document(path(), *cache_));
+  (void)read_scene(state->table, path(), *cache_);
+  return {std::move(state), cache_};
+}
+
 void SceneDocument::adopt(DocumentState&& state) {
   (void)read_scene(state.table, state.path, *cache_);
   state_ = std::make_shared<const DocumentState>(std::move(state));

@@ -27,6 +27,10 @@ class SceneDocument {
   /// The same from the text of a scene file; names of files in it are relative to the folder of `path`.
   [[nodiscard]] static SceneDocument from_text(const std::string& text, const std::string& path);
 
+  /// The scene file, or the studio about the bare mesh file, as it is on disk now: no edits, but what copies
+  /// share. Errors: as open.
+  [[nodiscard]] SceneDocument reopened() const;
+
   /// One edit, `PATH=VALUE` as in scene_edit.h.
   void apply(const std::string& edit);
 

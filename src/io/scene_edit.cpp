@@ -98,6 +98,8 @@ toml::table& find_named(toml::table& document, const std::string& list, const st
 }
 
 void apply_edit(toml::table& document, const std::string& edit, const std::string& file, ColorMaps& maps) {
+  if (edit.find_first_of("\n\r") != std::string::npos)
+    throw Error(Place{"--set", 0, 0}, "an edit must be one line");
   const Place place{"--set " + edit, 0, 0};
   const std::size_t equals = edit.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == edit.size())

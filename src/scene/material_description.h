@@ -25,7 +25,7 @@ struct MaterialDescription {
   DVec3 delivered{0};                    // the colour that a half-space really shows: ColorMap of the albedo
   DVec3 radius{0};                       // as the key has it, without the scale; without a key 1 / sigma_t
   DVec3 radius_scale{1};
-  DVec3 albedo{0};                       // single-scattering
+  DVec3 albedo{0};  // single-scattering
   DVec3 mean_free_path{0};
   DVec3 sigma_s{0};  // per millimetre
   DVec3 sigma_a{0};  // per millimetre

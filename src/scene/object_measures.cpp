@@ -59,13 +59,16 @@ double mesh_chord(const Mesh& mesh, const DMat3& linear) {
   const DMat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                         glm::cross(linear[0], linear[1]));
   double doubled_area = 0;
+  DVec3 sum(0);
   for (const Triangle& triangle : mesh.triangles) {
     const DVec3& a = mesh.positions[triangle[0]];
     const DVec3 across = glm::cross(mesh.positions[triangle[1]] - a, mesh.positions[triangle[2]] - a);
     doubled_area += glm::length(cofactors * across);
+    sum += cofactors * across;
   }
-  const double volume = count_open_edges(mesh) == 0 ? signed_volume(mesh) * glm::determinant(linear) : 0;
-  if (volume > 0) return 8 * volume / doubled_area;
+  const bool closed = glm::length(sum) <= 1e-9 * doubled_area;
+  const double volume = signed_volume(mesh) * glm::determinant(linear);
+  if (closed && volume > 0) return 8 * volume / doubled_area;
   const Bounds bounds = mesh_bounds(mesh, linear);
   const DVec3 size = bounds.high - bounds.low;
   return std::min({size.x, size.y, size.z});

@@ -32,9 +32,9 @@ struct Panel {
 };
 
 constexpr DVec3 kSurround{0.05, 0.055, 0.065};
-constexpr Panel kPanels[] = {{-20, 38, 70, 46, {9.4, 8.6, 7.6}},
-                             {140, 40, 60, 50, {3.0, 3.1, 3.3}},
-                             {-105, 15, 22, 75, {2.0, 2.1, 2.3}}};
+constexpr Panel kPanels[] = {{-20, 38, 70, 46, {6, 5.5, 4.9}},
+                             {140, 40, 60, 50, {2, 2.05, 2.2}},
+                             {-105, 15, 22, 75, {1.4, 1.45, 1.6}}};
 
 DVec3 direction_at(double azimuth, double elevation) {
   return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
