@@ -40,15 +40,28 @@ std::string title_of(const std::string& renderer) {
   return renderer;
 }
 
+bool begin_menu(const char* id) {
+  drop_from_last_item({220, 150});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(10, 7));
+  const bool open = ImGui::BeginPopup(id);
+  if (!open) ImGui::PopStyleVar();
+  return open;
+}
+
+void end_menu() {
+  ImGui::EndPopup();
+  ImGui::PopStyleVar();
+}
+
 void copy_menu(const Ui& ui, const ToolbarModel& model) {
   if (icon_button("copy", Icon::copy, "Copy the look as another renderer's material"))
     ImGui::OpenPopup("copy as");
-  if (!ImGui::BeginPopup("copy as")) return;
+  if (!begin_menu("copy as")) return;
   ImGui::TextDisabled("Copy as");
   for (std::size_t i = 0; i < model.renderers.size(); ++i)
     if (ImGui::MenuItem(title_of(model.renderers[i]).c_str()))
       ui.command(CommandKind::copy_as, static_cast<std::int64_t>(i));
-  ImGui::EndPopup();
+  end_menu();
 }
 
 void save_menu(const Ui& ui, const ToolbarModel& model) {
@@ -57,11 +70,11 @@ void save_menu(const Ui& ui, const ToolbarModel& model) {
     const ImVec2 corner(ImGui::GetItemRectMax().x - 4, ImGui::GetItemRectMin().y + 4);
     ImGui::GetWindowDrawList()->AddCircleFilled(corner, 2.5f, kAccent, 12);
   }
-  if (!ImGui::BeginPopup("save as")) return;
+  if (!begin_menu("save as")) return;
   if (ImGui::MenuItem("Save the scene", "Ctrl + S")) ui.command(CommandKind::save);
   if (ImGui::MenuItem("Save the scene as …", "Ctrl + Shift + S")) ui.command(CommandKind::save_browser);
   if (ImGui::MenuItem("Save the picture …", "Ctrl + E")) ui.command(CommandKind::save_picture_browser);
-  ImGui::EndPopup();
+  end_menu();
 }
 
 void file_buttons(const Ui& ui, const ToolbarModel& model) {

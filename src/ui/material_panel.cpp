@@ -33,7 +33,7 @@ bool matches(std::string_view name, std::string_view search) {
 
 void preset_entry(const Ui& ui, const MaterialModel& model, const Preset& preset) {
   const bool chosen = model.now.preset == preset.name;
-  if (ImGui::Selectable(spaced(preset.name).c_str(), chosen)) {
+  if (ImGui::Selectable(spaced(preset.name).c_str(), chosen, ImGuiSelectableFlags_None, {0, kListLine})) {
     ui.edit(edit_text(material_path(model, "preset"), preset.name));
     ui.state.preset_search.clear();
   }

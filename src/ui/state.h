@@ -54,8 +54,8 @@ struct UiState {
   std::uint32_t last_active = 0;  // the control that was held in the frame before
 };
 
-/// Does what is for the interface alone, and says whether it was that: help, hide_interface, the browsers (a
-/// folder is then to be listed: UiActions asks for it), and a quit that closes something.
+/// Does what is for the interface alone, and says whether it was that: help, hide_interface, the browsers
+/// (whose folder the previewer then lists into BrowserModel), and a quit that closes something.
 [[nodiscard]] bool carry_out(UiState& state, const Command& command);
 
 }  // namespace meander

@@ -124,7 +124,7 @@ void apply_style() {
   set(ImGuiCol_TextDisabled, kDimColor);
   set(ImGuiCol_WindowBg, kPanelColor);
   set(ImGuiCol_ChildBg, 0);
-  set(ImGuiCol_PopupBg, IM_COL32(46, 46, 46, 252));
+  set(ImGuiCol_PopupBg, IM_COL32(46, 46, 46, 255));
   set(ImGuiCol_Border, IM_COL32(16, 16, 16, 255));
   for (const ImGuiCol frame : {ImGuiCol_FrameBg, ImGuiCol_Button, ImGuiCol_Header}) set(frame, kFrameColor);
   for (const ImGuiCol hovered : {ImGuiCol_FrameBgHovered, ImGuiCol_ButtonHovered, ImGuiCol_HeaderHovered})

@@ -164,7 +164,9 @@ std::optional<int> choice(const Row& row, const char* id, std::span<const std::s
   const std::string shown(known ? names[static_cast<std::size_t>(chosen)] : "");
   if (begin_list(row, id, shown)) {
     for (int i = 0; i < static_cast<int>(names.size()); ++i)
-      if (ImGui::Selectable(std::string(names[static_cast<std::size_t>(i)]).c_str(), i == chosen)) picked = i;
+      if (ImGui::Selectable(std::string(names[static_cast<std::size_t>(i)]).c_str(), i == chosen,
+                            ImGuiSelectableFlags_None, {0, kListLine}))
+        picked = i;
     ImGui::EndCombo();
   }
   end_row(row);
@@ -194,6 +196,13 @@ bool text_button(const char* text, const char* tooltip, float width) {
   return pressed;
 }
 
+void drop_from_last_item(const ImVec2& size) {
+  const ImVec2 room = ImGui::GetIO().DisplaySize;
+  const ImVec2 at(ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + 4);
+  ImGui::SetNextWindowPos({std::max(0.0f, std::min(at.x, room.x - size.x - 4)),
+                           std::max(0.0f, std::min(at.y, room.y - size.y - 4))});
+}
+
 void swatch(const ImVec2& low, const ImVec2& high, const DVec3& linear) {
   const auto level = [](double x) {
     return static_cast<int>(std::lround(255 * encode_srgb(static_cast<Real>(std::clamp(x, 0.0, 1.0)))));
@@ -211,6 +220,7 @@ std::optional<DVec3> color_button(const char* id, const Row& box, const DVec3& l
   swatch(box.low, box.high, linear);
   if (ImGui::IsItemHovered()) ImGui::GetWindowDrawList()->AddRect(box.low, box.high, kTextColor, kRounding);
   item_tooltip("Pick a colour");
+  drop_from_last_item({242, 300});
   if (ImGui::BeginPopup("picker")) {
     const auto encode = [](double x) {
       return static_cast<float>(encode_srgb(static_cast<Real>(std::clamp(x, 0.0, 1.0))));

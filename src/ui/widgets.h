@@ -95,6 +95,9 @@ struct ButtonLook {
 /// A plain button of the row's height; `width` 0 is that of the text.
 [[nodiscard]] bool text_button(const char* text, const char* tooltip, float width = 0);
 
+/// The popup that comes next drops from the last item, moved into the window where it is `size` large.
+void drop_from_last_item(const ImVec2& size);
+
 /// A filled rectangle of a linear colour.
 void swatch(const ImVec2& low, const ImVec2& high, const DVec3& linear);
 /// A swatch that opens a picker with hex; `reset` is offered in it.

@@ -82,6 +82,27 @@ TEST_CASE("the interface has pixels in each of its regions, at every size and sc
   }
 }
 
+TEST_CASE("menus, lists and pickers open over the rest") {
+  struct Place {
+    const char* name;
+    float x, y;
+  };
+  for (const Place& place : {Place{"picker", 1075, 153}, Place{"presets", 1150, 75}, Place{"copy", 77, 19},
+                             Place{"boundary", 1150, 314}, Place{"views", 300, 19}}) {
+    Pixels pixels;
+    TestWindow window(1280, 720);
+    const Image8 before = pixels.draw(window);
+    window.frame({button(place.x, place.y, true), button(place.x, place.y, false)});
+    for (int i = 0; i < 3; ++i) window.frame();
+    const Image8 after = pixels.draw(window);
+    CAPTURE(place.name);
+    int changed = 0;
+    for (std::size_t i = 0; i < after.rgb.size(); ++i) changed += before.rgb[i] != after.rgb[i];
+    CHECK(changed > 10000);
+    save(after, std::string("ui_") + place.name);
+  }
+}
+
 TEST_CASE("help, browser and the other parametrisations") {
   Pixels pixels;
   TestWindow window(1280, 720);
