@@ -98,6 +98,9 @@ FilmPlanes planes_of(const Rendering& rendering) { return resolve_planes(renderi
 }  // namespace
 
 void open_file(PreviewTools& tools, const std::string& path, bool as_surround) {
+  std::error_code unknown;
+  if (fs::is_directory(path, unknown))
+    throw Error(Fault::input, "'" + path + "' is a folder: choose a file in it");
   const std::string extension = lower_extension(path);
   if (extension == ".toml") return open_scene(tools, path);
   SceneDocument document = tools.state.history.now();

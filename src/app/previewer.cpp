@@ -204,6 +204,7 @@ bool Previewer::update(double now) {
     return message.kind != MessageKind::error &&
            message.age > kMessageSeconds * (1 + !message.details.empty());
   });
+  if (wheel_end_ && now > *wheel_end_) set_gesture(false);
   watch_files(now);
   submit_if_changed(now);
   if (const auto error = session_->take_error()) state_.tell(MessageKind::error, *error);
@@ -255,11 +256,18 @@ void Previewer::draw(const PreviewSurface& surface) {
   draw_interface_over(surface);
 }
 
-void Previewer::carry_out_all(const UiActions& actions) {
-  if (actions.gesture_started) {
-    gesture_ = true;
-    state_.history.begin_gesture();
+// The folder of the last listing, or of the scene.
+void Previewer::list_folder_for_browser() {
+  if (!state_.browser.folder.empty()) {
+    state_.browser = list_folder(state_.browser.folder);
+    return;
   }
+  const std::filesystem::path folder = std::filesystem::path(state_.history.now().path()).parent_path();
+  state_.browser = list_folder(folder.empty() ? "." : folder.string());
+}
+
+void Previewer::carry_out_all(const UiActions& actions) {
+  if (actions.gesture_started) set_gesture(true);
   for (const std::string& edit : actions.edits) {
     try {
       SceneDocument document = state_.history.now();
@@ -270,17 +278,22 @@ void Previewer::carry_out_all(const UiActions& actions) {
     }
   }
   for (const Command& command : actions.commands) carry_out_safely(command);
-  if (actions.gesture_ended) {
-    gesture_ = false;
-    state_.history.end_gesture();
-  }
+  if (actions.gesture_ended) set_gesture(false);
   if (!actions.edits.empty() || !actions.commands.empty() || actions.gesture_ended)
     frames_due_ = kSettleFrames;
 }
 
 void Previewer::carry_out_safely(const Command& command) {
   try {
-    if (meander::carry_out(ui_, command)) return;
+    if (command.kind == CommandKind::quit && state_.look.selecting) {
+      state_.look.selecting = false;
+      return;
+    }
+    const bool was_closed = ui_.browser == BrowserUse::closed;
+    if (meander::carry_out(ui_, command)) {
+      if (was_closed && ui_.browser != BrowserUse::closed) list_folder_for_browser();
+      return;
+    }
     if (command.kind == CommandKind::pause) {
       paused_ = !paused_;
       session_->set_paused(paused_);

@@ -71,7 +71,8 @@ class Previewer {
   void move_picture(const PictureMove& move);
   void drag_camera(const CameraDrag& drag);
   void drag_light(const LightDrag& drag);
-  void drag_rectangle(const RectangleDrag& drag);
+  void set_gesture(bool on);
+  void list_folder_for_browser();
   void take_drop(const InputEvent& event);
   void carry_out_all(const UiActions& actions);
   void carry_out_safely(const Command& command);
@@ -101,6 +102,7 @@ class Previewer {
   std::string submitted_;  // what the session was last asked for, as text
   bool interactive_ = false;
   bool gesture_ = false;
+  std::optional<double> wheel_end_;  // when a gesture of wheel steps is over
   bool paused_ = false;
   double last_change_ = 0;
   double last_watch_ = 0;

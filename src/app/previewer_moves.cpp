@@ -11,16 +11,14 @@
 namespace meander {
 namespace {
 
-constexpr double kTurn = 180;  // degrees of light for a drag over the picture's height
+constexpr double kWheelSeconds = 0.4;  // between two steps of one gesture
+constexpr double kTurn = 180;          // degrees of light for a drag over the picture's height
 
 }  // namespace
 
 PictureArea Previewer::picture_area() const {
   PictureArea area{layout_.image.x, layout_.image.y, layout_.image.width, std::max(film_area_.height, 1.0f)};
   area.blocked = interface_.wants_mouse();
-  area.rectangle_tool = state_.look.selecting;
-  if (state_.look.comparison == Comparison::wipe)
-    area.wipe_x = film_area_.x + state_.look.wipe * film_area_.width;
   return area;
 }
 
@@ -54,44 +52,28 @@ void Previewer::drag_light(const LightDrag& drag) {
   state_.change(std::move(document));
 }
 
-void Previewer::drag_rectangle(const RectangleDrag& drag) {
-  const FilmSize& film = state_.scene->film;
-  const auto pixel = [](double at, double from, double extent, int most) {
-    return std::clamp((at - from) / extent * most, 0.0, static_cast<double>(most));
-  };
-  const double x0 = pixel(std::min(drag.x0, drag.x1), film_area_.x, film_area_.width, film.width);
-  const double x1 = pixel(std::max(drag.x0, drag.x1), film_area_.x, film_area_.width, film.width);
-  const double y0 = pixel(std::min(drag.y0, drag.y1), film_area_.y, film_area_.height, film.height);
-  const double y1 = pixel(std::max(drag.y0, drag.y1), film_area_.y, film_area_.height, film.height);
-  const PixelBox box{static_cast<int>(x0), static_cast<int>(y0), static_cast<int>(std::ceil(x1)),
-                     static_cast<int>(std::ceil(y1))};
-  if (box.x1 - box.x0 >= 2 && box.y1 - box.y0 >= 2) state_.look.region = box;
-}
-
 void Previewer::move_picture(const PictureMove& move) {
   if (const auto* camera = std::get_if<CameraDrag>(&move)) return drag_camera(*camera);
   if (const auto* light = std::get_if<LightDrag>(&move)) return drag_light(*light);
-  if (const auto* rectangle = std::get_if<RectangleDrag>(&move)) return drag_rectangle(*rectangle);
-  if (const auto* wipe = std::get_if<WipeDrag>(&move)) {
-    state_.look.wipe =
-        std::clamp(static_cast<float>((wipe->x - film_area_.x) / film_area_.width), 0.0f, 1.0f);
-    return;
-  }
   if (const auto* wheel = std::get_if<WheelDolly>(&move)) {
+    // Wheel steps that follow on one another are one gesture, which update() ends.
+    set_gesture(true);
+    wheel_end_ = now_ + kWheelSeconds;
     SceneDocument document = state_.history.now();
     document.set_camera(dolly(state_.scene->camera, wheel->steps));
     return state_.change(std::move(document));
   }
-  if (std::holds_alternative<GestureBegin>(move)) {
-    gesture_ = true;
+  set_gesture(std::holds_alternative<GestureBegin>(move));
+}
+
+void Previewer::set_gesture(bool on) {
+  wheel_end_.reset();
+  if (on == gesture_) return;
+  gesture_ = on;
+  if (on)
     state_.history.begin_gesture();
-  }
-  if (std::holds_alternative<GestureEnd>(move)) {
-    gesture_ = false;
+  else
     state_.history.end_gesture();
-    // One rectangle was asked for; the tool is put away again.
-    if (state_.look.region) state_.look.selecting = false;
-  }
 }
 
 std::optional<PointedPixel> Previewer::pointed() const {

@@ -144,7 +144,7 @@ TEST_CASE("the text has the documented order, short numbers and the leading comm
         "albedo = [0.1, 0.1, 0.1]\nmean_free_path = 1000\ng = 1e-07\n\n[[object]]\nshape = \"box\"\n"
         "material = \"m \\u0001\\\" \\\\ \u00e9\"\ntransform = { translate = [1.5, -0.0, 1e+25], scale = 2 "
         "}\n");
-  CHECK(document.scene().scene.display.filmic);
+  CHECK(document.scene().scene.display.tone == Tone::filmic);
   check_reads_back(document);
 }
 
