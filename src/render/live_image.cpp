@@ -69,13 +69,6 @@ bool LiveImage::has_work(bool paused) const noexcept {
   return !paused && next_samples() > 0;
 }
 
-double LiveImage::seconds_to_first_image() const noexcept {
-  const double cost = stock_.seconds_per_pixel;
-  if (stage_ != Stage::probe) return pixels_ * cost / (scale_ * scale_);
-  const int scale = std::min(scale_, coarse_scale(pixels_, cost, kFirstImage));
-  return pixels_ * cost * (1.0 / (scale_ * scale_) + 1.0 / (scale * scale));
-}
-
 void LiveImage::set_budget(const Budget& budget) noexcept { request_.budget = budget; }
 
 std::shared_ptr<LiveFrame> LiveImage::step(const std::atomic<bool>& stop) {

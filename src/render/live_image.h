@@ -36,9 +36,6 @@ class LiveImage {
   /// Whether step() has something to do; `paused` holds the full-resolution passes back.
   [[nodiscard]] bool has_work(bool paused) const noexcept;
 
-  /// Seconds that are left until the first image, as predicted.
-  [[nodiscard]] double seconds_to_first_image() const noexcept;
-
   void set_budget(const Budget& budget) noexcept;
 
   /// The full-resolution film after its last pass, null before the first.
