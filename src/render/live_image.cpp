@@ -66,7 +66,7 @@ bool LiveImage::has_work(bool paused) const noexcept {
   if (stage_ == Stage::finished) return false;
   if (stage_ != Stage::full) return true;
   if (done_ && (next_samples() == 0) != shown_complete_) return true;
-  return !paused && next_samples() > 0;
+  return (!paused || !shown_) && next_samples() > 0;
 }
 
 void LiveImage::set_budget(const Budget& budget) noexcept { request_.budget = budget; }
@@ -97,6 +97,7 @@ std::shared_ptr<LiveFrame> LiveImage::render_coarse(const std::atomic<bool>& sto
   else if (!judge_probe(cost))
     return nullptr;
   refine();
+  shown_ = true;
   return frame;
 }
 
@@ -165,6 +166,7 @@ std::shared_ptr<LiveFrame> LiveImage::render_pass(const std::atomic<bool>& stop)
   frame->history = history_;
   frame->complete = next_samples() == 0;
   shown_complete_ = frame->complete;
+  shown_ = true;
   return frame;
 }
 

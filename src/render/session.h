@@ -26,7 +26,7 @@ class Session {
   std::uint64_t submit(SessionRequest request);
 
   /// A paused session stops its pass, keeps its film and goes on later. What is submitted meanwhile shows its
-  /// coarse images and waits at full resolution.
+  /// coarse images, or its first one if that is of full resolution, and then waits.
   void set_paused(bool paused);
 
   /// Replaces the newest request's budget; what has been done stands.

@@ -214,8 +214,13 @@ TEST_CASE("a pause keeps the film, and the session goes on from it") {
   for (const Timer timer; session.working() && timer.seconds() < 60;) std::this_thread::sleep_for(1ms);
   CHECK(session.latest()->scale == 2);
   CHECK(session.rendering(edited) == nullptr);
+  // One that is too small for coarse images shows its first sample.
+  const std::uint64_t small = session.submit(request(mixed_scene(), 4, 20, 20));
+  CHECK(wait_for(session, [&](const LiveFrame& f) { return f.generation == small; }));
+  for (const Timer timer; session.working() && timer.seconds() < 60;) std::this_thread::sleep_for(1ms);
+  CHECK(session.latest()->spp == 1);
   session.set_paused(false);
-  REQUIRE(wait_complete(session, edited));
+  REQUIRE(wait_complete(session, small));
   CHECK(session.latest()->spp == 4);
 }
 
