@@ -66,14 +66,7 @@ bool LiveImage::has_work(bool paused) const noexcept {
   if (stage_ == Stage::finished) return false;
   if (stage_ != Stage::full) return true;
   if (done_ && (next_samples() == 0) != shown_complete_) return true;
-  return !paused && next_samples() > 0;
-}
-
-double LiveImage::seconds_to_first_image() const noexcept {
-  const double cost = stock_.seconds_per_pixel;
-  if (stage_ != Stage::probe) return pixels_ * cost / (scale_ * scale_);
-  const int scale = std::min(scale_, coarse_scale(pixels_, cost, kFirstImage));
-  return pixels_ * cost * (1.0 / (scale_ * scale_) + 1.0 / (scale * scale));
+  return (!paused || !shown_) && next_samples() > 0;
 }
 
 void LiveImage::set_budget(const Budget& budget) noexcept { request_.budget = budget; }
@@ -104,6 +97,7 @@ std::shared_ptr<LiveFrame> LiveImage::render_coarse(const std::atomic<bool>& sto
   else if (!judge_probe(cost))
     return nullptr;
   refine();
+  shown_ = true;
   return frame;
 }
 
@@ -172,6 +166,7 @@ std::shared_ptr<LiveFrame> LiveImage::render_pass(const std::atomic<bool>& stop)
   frame->history = history_;
   frame->complete = next_samples() == 0;
   shown_complete_ = frame->complete;
+  shown_ = true;
   return frame;
 }
 

@@ -33,11 +33,9 @@ class LiveImage {
   /// submit() are left to the caller.
   [[nodiscard]] std::shared_ptr<LiveFrame> step(const std::atomic<bool>& stop);
 
-  /// Whether step() has something to do; `paused` holds the full-resolution passes back.
+  /// Whether step() has something to do; `paused` holds the full-resolution passes back
+  /// once there is an image.
   [[nodiscard]] bool has_work(bool paused) const noexcept;
-
-  /// Seconds that are left until the first image, as predicted.
-  [[nodiscard]] double seconds_to_first_image() const noexcept;
 
   void set_budget(const Budget& budget) noexcept;
 
@@ -65,6 +63,7 @@ class LiveImage {
   double spent_ = 0;  // seconds, on coarse images
   std::shared_ptr<const Rendering> done_;
   std::vector<NoisePoint> history_;
+  bool shown_ = false;  // some image
   bool shown_complete_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "render/session.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -13,7 +14,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kWorthWaitingFor = 0.03;  // seconds for which a first image that is about to appear is kept
+// Seconds for which the first image of a job is kept from newer ones. Were it stopped by each, a stream of
+// them would never show anything; every one that had to be stopped all the same doubles the next one's time.
+constexpr double kFirstImageKept = 0.06;
+constexpr double kFirstImageKeptAtMost = 1;
 
 Clock::duration duration(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -37,7 +41,7 @@ struct Session::Shared {
   bool paused = false;
   bool quit = false;
   bool working = false;
-  std::optional<Clock::time_point> kept_until;  // a first image is under way, and may take until then
+  std::optional<Clock::time_point> kept_until;  // a first image is under way, and may take that long
   std::shared_ptr<const LiveFrame> frame;
   std::shared_ptr<const Rendering> film;
   std::uint64_t film_generation = 0;
@@ -93,13 +97,16 @@ class Session::Worker {
     };
     shared_.wake.wait(lock, ready);
     if (shared_.quit) return false;
+    if (image_ && shared_.kept_until && !shared_.stop) return true;  // what is newer waits
     shared_.stop = false;
+    shared_.kept_until.reset();
     request_ = std::exchange(shared_.pending, std::nullopt);
     if (!request_) return true;
     generation_ = shared_.generation;
     submitted_ = shared_.submitted;
     waited_ = seconds_between(submitted_, Clock::now());
     first_image_.reset();
+    shared_.kept_until = Clock::now() + duration(keep_);
     return true;
   }
 
@@ -109,24 +116,15 @@ class Session::Worker {
       image_.emplace(std::move(*request_), stock_);
       request_.reset();
     }
-    if (!first_image_) keep_first_image();
-    const std::shared_ptr<LiveFrame> frame = image_->step(shared_.stop);
-    publish(frame);
-  }
-
-  void keep_first_image() {
-    const double seconds = 1.5 * image_->seconds_to_first_image();
-    {
-      const std::lock_guard lock(shared_.mutex);
-      if (shared_.kept_until) return;
-      shared_.kept_until = Clock::now() + duration(seconds);
-    }
-    shared_.watch.notify_one();
+    publish(image_->step(shared_.stop));
   }
 
   void publish(const std::shared_ptr<LiveFrame>& frame) {
     const Clock::time_point now = Clock::now();
-    if (frame && !first_image_) first_image_ = seconds_between(submitted_, now);
+    if (frame && !first_image_) {
+      first_image_ = seconds_between(submitted_, now);
+      keep_ = kFirstImageKept;
+    }
     if (frame) {
       frame->generation = generation_;
       frame->waited_seconds = waited_;
@@ -136,7 +134,8 @@ class Session::Worker {
     std::shared_ptr<const Rendering> film = image_->film();
     {
       const std::lock_guard lock(shared_.mutex);
-      if (frame || shared_.stop) shared_.kept_until.reset();
+      if (!first_image_ && shared_.stop) keep_ = std::min(2 * keep_, kFirstImageKeptAtMost);
+      if (first_image_) shared_.kept_until.reset();
       if (shown) std::swap(shared_.frame, shown);
       if (film) shared_.film_generation = generation_;
       if (film) std::swap(shared_.film, film);
@@ -146,13 +145,12 @@ class Session::Worker {
   void watch() {
     std::unique_lock lock(shared_.mutex);
     while (!shared_.quit) {
-      if (!shared_.kept_until || !shared_.pending) {
+      if (!shared_.kept_until || !shared_.pending || shared_.stop) {
         shared_.watch.wait(lock);
       } else if (Clock::now() < *shared_.kept_until) {
         shared_.watch.wait_until(lock, *shared_.kept_until);
       } else {
         shared_.stop = true;
-        shared_.kept_until.reset();
       }
     }
   }
@@ -164,6 +162,7 @@ class Session::Worker {
   std::uint64_t generation_ = 0;
   Clock::time_point submitted_;
   double waited_ = 0;
+  double keep_ = kFirstImageKept;
   std::optional<double> first_image_;  // seconds from submit(), once there is one
   std::thread watch_;
   std::thread thread_;
@@ -180,8 +179,7 @@ std::uint64_t Session::submit(SessionRequest request) {
     const std::lock_guard lock(shared_->mutex);
     const Clock::time_point now = Clock::now();
     const auto& kept = shared_->kept_until;
-    const bool keep = kept && now < *kept && *kept - now < duration(kWorthWaitingFor);
-    if (!keep) shared_->stop = true;
+    if (!kept || now >= *kept) shared_->stop = true;
     std::swap(shared_->pending.emplace(), request);
     shared_->submitted = now;
     shared_->budget.reset();

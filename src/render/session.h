@@ -22,11 +22,11 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   /// Replaces the job and returns its generation (1, 2, …). The running pass is stopped, except for the first
-  /// image of a job while it is about to appear: that one is still finished and published.
+  /// image of a job in its first 60 ms: a stream of submits, however fast, shows images.
   std::uint64_t submit(SessionRequest request);
 
   /// A paused session stops its pass, keeps its film and goes on later. What is submitted meanwhile shows its
-  /// coarse images and waits at full resolution.
+  /// coarse images, or its first one if that is of full resolution, and then waits.
   void set_paused(bool paused);
 
   /// Replaces the newest request's budget; what has been done stands.

@@ -37,8 +37,10 @@ struct Distribution {
     return 1e3 * values[static_cast<std::size_t>(quantile * static_cast<double>(values.size() - 1) + 0.5)];
   }
   void print(const char* name) const {
-    std::printf("\"%s\": {\"median_ms\": %.2f, \"p95_ms\": %.2f, \"max_ms\": %.2f, \"count\": %zu},\n", name,
-                at(0.5), at(0.95), at(1), values.size());
+    std::printf(
+        "\"%s\": {\"min_ms\": %.2f, \"median_ms\": %.2f, \"p95_ms\": %.2f, \"max_ms\": %.2f, \"count\": "
+        "%zu},\n",
+        name, at(0), at(0.5), at(0.95), at(1), values.size());
     std::fflush(stdout);
   }
 };

@@ -85,7 +85,7 @@ TEST_CASE(
   Session session(2);
   CHECK(session.latest() == nullptr);
   CHECK_FALSE(session.working());
-  SessionRequest asked = request(mixed_scene(), 12, 480, 288);
+  SessionRequest asked = request(mixed_scene(), 6, 320, 192);
   asked.seed = 7;
   const std::uint64_t generation = session.submit(asked);
   CHECK(session.working());
@@ -99,16 +99,16 @@ TEST_CASE(
   }
   const LiveFrame& last = *frames.back();
   CHECK(last.scale == 1);
-  CHECK(last.spp == 12);
-  CHECK(last.area == Tile{0, 0, 480, 288});
+  CHECK(last.spp == 6);
+  CHECK(last.area == Tile{0, 0, 320, 192});
   CHECK(last.first_image_seconds > 0);
   CHECK(last.first_image_seconds == frames.front()->first_image_seconds);
   REQUIRE_FALSE(last.history.empty());
-  CHECK(last.history.back().spp == 12);
+  CHECK(last.history.back().spp == 6);
   CHECK(last.history.back().noise == last.noise);
 
   const Job job = job_of(asked);
-  const Rendering rendered = render_spp(job, 12);
+  const Rendering rendered = render_spp(job, 6);
   const auto film = session.rendering(generation);
   REQUIRE(film);
   CHECK(same_film(film->film, rendered.film));
@@ -214,8 +214,13 @@ TEST_CASE("a pause keeps the film, and the session goes on from it") {
   for (const Timer timer; session.working() && timer.seconds() < 60;) std::this_thread::sleep_for(1ms);
   CHECK(session.latest()->scale == 2);
   CHECK(session.rendering(edited) == nullptr);
+  // One that is too small for coarse images shows its first sample.
+  const std::uint64_t small = session.submit(request(mixed_scene(), 4, 20, 20));
+  CHECK(wait_for(session, [&](const LiveFrame& f) { return f.generation == small; }));
+  for (const Timer timer; session.working() && timer.seconds() < 60;) std::this_thread::sleep_for(1ms);
+  CHECK(session.latest()->spp == 1);
   session.set_paused(false);
-  REQUIRE(wait_complete(session, edited));
+  REQUIRE(wait_complete(session, small));
   CHECK(session.latest()->spp == 4);
 }
 
