@@ -29,7 +29,7 @@ mean_free_path = 0.1'
 
 refuse 'A subcommand is required'
 refuse "did you mean 'render'" rendr in/good.toml -o out/a.exr
-refuse 'known: render, capture' xyzzy
+refuse 'known: preview, render, capture' xyzzy
 refuse '--sppp' render in/good.toml -o out/a.exr --sppp 4
 refuse 'required' render in/good.toml
 refuse "'0'" render in/good.toml -o out/a.exr --spp 0

@@ -204,7 +204,7 @@ TEST_CASE("a material is described in every parametrisation") {
   CHECK(wax.radius.z == doctest::Approx(0.1));
   CHECK(wax.g_lock == GLock::sigma_t);
   CHECK(wax.roughness == 0.25);
-  CHECK(wax.delivered.x == doctest::Approx(color_of(DVec3(0.9), 0.5, {Boundary::dielectric, 1.4}).x));
+  CHECK(wax.delivered.x == doctest::Approx(color_of(DVec3(0.9), 0.5, {Boundary::dielectric, 1.4, 0.25}).x));
   CHECK(wax.color == wax.delivered);
   CHECK(wax.diffusion_length.x == doctest::Approx(1 / std::sqrt(3 * 1.0 * (1 + 4.5))));
   CHECK(std::isinf(wax.diffusion_length.z));
