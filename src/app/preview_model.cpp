@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "io/material_export.h"
 #include "render/parallel.h"
@@ -254,7 +255,9 @@ std::optional<PixelReading> read_pixel(const LiveFrame& frame, const FilmSize& f
   reading.y = at.y;
   for (int c = 0; c < 3; ++c) {
     reading.value[c] = radiance[c];
-    reading.error[c] = std::sqrt(double{error[c]});
+    // One sample says nothing of its error.
+    reading.error[c] =
+        radiance[3] < 2 ? std::numeric_limits<double>::infinity() : std::sqrt(double{error[c]});
   }
   reading.samples = radiance[3];
   reading.scatterings = error[3];
