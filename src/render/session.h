@@ -15,18 +15,21 @@ namespace meander {
 /// running pass and joins.
 class Session {
  public:
-  /// Traces on at most `threads` threads, at a lower priority than the rest of the process.
-  explicit Session(int threads);
+  /// Traces on at most `threads` threads, at a lower priority than the rest of the process. Generations go on
+  /// from `generation`, so that the frames of a session before it are never taken for this one's.
+  explicit Session(int threads, std::uint64_t generation = 0);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Replaces the job and returns its generation (1, 2, …). The running pass is stopped, except for the first
-  /// image of a job while it is about to appear: that one is still finished and published.
+  /// Replaces the job and returns its generation (1, 2, … from the one given). The running pass is stopped,
+  /// except for the first image of a job while it is about to appear: that one is still finished and
+  /// published.
   std::uint64_t submit(SessionRequest request);
 
   /// A paused session stops its pass, keeps its film and goes on later. What is submitted meanwhile shows its
-  /// coarse images and waits at full resolution.
+  /// coarse images and waits at full resolution; a film too small or too cheap for coarse images takes one
+  /// pass.
   void set_paused(bool paused);
 
   /// Replaces the newest request's budget; what has been done stands.
