@@ -66,7 +66,7 @@ bool LiveImage::has_work(bool paused) const noexcept {
   if (stage_ == Stage::finished) return false;
   if (stage_ != Stage::full) return true;
   if (done_ && (next_samples() == 0) != shown_complete_) return true;
-  return !paused && next_samples() > 0;
+  return !(paused && shown_) && next_samples() > 0;
 }
 
 double LiveImage::seconds_to_first_image() const noexcept {
@@ -79,7 +79,9 @@ double LiveImage::seconds_to_first_image() const noexcept {
 void LiveImage::set_budget(const Budget& budget) noexcept { request_.budget = budget; }
 
 std::shared_ptr<LiveFrame> LiveImage::step(const std::atomic<bool>& stop) {
-  return stage_ == Stage::full ? render_pass(stop) : render_coarse(stop);
+  std::shared_ptr<LiveFrame> frame = stage_ == Stage::full ? render_pass(stop) : render_coarse(stop);
+  shown_ = shown_ || frame;
+  return frame;
 }
 
 std::shared_ptr<LiveFrame> LiveImage::render_coarse(const std::atomic<bool>& stop) {

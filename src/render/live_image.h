@@ -65,6 +65,7 @@ class LiveImage {
   double spent_ = 0;  // seconds, on coarse images
   std::shared_ptr<const Rendering> done_;
   std::vector<NoisePoint> history_;
+  bool shown_ = false;  // there has been a frame
   bool shown_complete_ = false;
 };
 
