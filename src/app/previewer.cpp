@@ -20,10 +20,6 @@ constexpr double kMessageSeconds = 6;
 constexpr float kBackdrop = 0.105f;  // around the picture
 constexpr int kSettleFrames = 3;     // Dear ImGui needs some frames to come to rest
 
-std::unique_ptr<Session> make_session(const PreviewSettings& settings) {
-  return std::make_unique<Session>(settings.threads);
-}
-
 }  // namespace
 
 Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions options, float scale)
@@ -36,7 +32,7 @@ Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions
   state_.settings = options_.settings;
   state_.look = options_.look;
   ui_.hidden = options_.hidden;
-  session_ = make_session(state_.settings);
+  session_ = std::make_unique<Session>(state_.settings.threads);
   for (const std::string& warning : state_.history.now().scene().warnings)
     state_.tell(MessageKind::warning, warning);
   clipboard_ = {[] { return std::string(); }, [](const std::string&) {}};
@@ -126,7 +122,7 @@ void Previewer::feed(const InputEvent& event) {
   if (event.kind == InputKind::drop) return take_drop(event);
   interface_.feed(event);
   const auto command = command_of(event, held_);
-  if (command && !interface_.wants_keyboard()) carry_out_safely(*command);
+  if (command && !interface_.wants_keyboard()) carry_out(*command);
   InputEvent in_points = event;
   in_points.x *= event.kind == InputKind::scroll ? 1 : pointer_scale_;
   in_points.y *= event.kind == InputKind::scroll ? 1 : pointer_scale_;
@@ -277,13 +273,13 @@ void Previewer::carry_out_all(const UiActions& actions) {
       state_.tell(MessageKind::error, error.what());
     }
   }
-  for (const Command& command : actions.commands) carry_out_safely(command);
+  for (const Command& command : actions.commands) carry_out(command);
   if (actions.gesture_ended) set_gesture(false);
   if (!actions.edits.empty() || !actions.commands.empty() || actions.gesture_ended)
     frames_due_ = kSettleFrames;
 }
 
-void Previewer::carry_out_safely(const Command& command) {
+void Previewer::carry_out(const Command& command) {
   try {
     if (command.kind == CommandKind::quit && state_.look.selecting) {
       state_.look.selecting = false;
@@ -302,13 +298,13 @@ void Previewer::carry_out_safely(const Command& command) {
       reload_shaders();
     } else if (command.kind == CommandKind::threads) {
       state_.settings.threads = static_cast<int>(command.index);
-      session_ = make_session(state_.settings);
+      session_ = std::make_unique<Session>(state_.settings.threads, generation_);
       session_->set_paused(paused_);
       submit(false);
     } else {
       PreviewTools tools{*gl_, state_, pictures_, *session_, generation_, clipboard_};
       const auto before = state_.settings.budget;
-      carry_out(tools, command);
+      meander::carry_out(tools, command);
       const auto& after = state_.settings.budget;
       if (before.spp != after.spp || before.error != after.error || before.seconds != after.seconds)
         session_->set_budget(after);

@@ -43,6 +43,9 @@ class Previewer {
   /// An edit as --set, by a script. Error when it is refused.
   void apply(const std::string& edit);
 
+  /// What a key or a panel asks for; what is refused becomes a message.
+  void carry_out(const Command& command);
+
   /// Takes what is new; `now` in seconds. True when there is something to draw: after events, when a picture
   /// has arrived, while a message or a gesture is on.
   [[nodiscard]] bool update(double now);
@@ -75,12 +78,10 @@ class Previewer {
   void list_folder_for_browser();
   void take_drop(const InputEvent& event);
   void carry_out_all(const UiActions& actions);
-  void carry_out_safely(const Command& command);
   [[nodiscard]] PictureArea picture_area() const;
   [[nodiscard]] std::optional<PointedPixel> pointed() const;
   [[nodiscard]] FilmPlacement place_film(const PreviewSurface& surface) const;
   void draw_interface_over(const PreviewSurface& surface);
-  friend struct PreviewCommands;
 
   const Functions* gl_;
   PreviewState state_;

@@ -10,7 +10,13 @@ auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, d
     return Outcome::taken;
   }
   if (const auto* event = std::get_if<EventStep>(&step)) {
-    stage.feed(event->event);
+    InputEvent told = event->event;
+    if (told.kind == InputKind::move) pointer_ = {told.x, told.y};
+    if (told.kind == InputKind::button || told.kind == InputKind::drop) {
+      told.x = pointer_[0];
+      told.y = pointer_[1];
+    }
+    stage.feed(told);
     return Outcome::taken_frame;
   }
   if (const auto* spp = std::get_if<WaitSppStep>(&step))

@@ -1,6 +1,7 @@
 // Plays a script, a few steps a frame.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -44,6 +45,7 @@ class ScriptPlayer {
   std::size_t next_ = 0;
   int frames_ = 0;  // since the last step
   std::optional<double> wait_until_;
+  std::array<double, 2> pointer_{};  // where the last move went: buttons and drops are there
 };
 
 }  // namespace meander

@@ -94,30 +94,40 @@ int key_code(int key, int scancode) {
 
 using Events = std::vector<InputEvent>;
 
-Events& events_of(GLFWwindow* window) { return *static_cast<Events*>(glfwGetWindowUserPointer(window)); }
+// What has happened, and where the pointer was then. The library, when asked for the pointer, says where it
+// is by now: a press that is taken up late would land where the drag has got to.
+struct Inbox {
+  Events events;
+  double x = 0;
+  double y = 0;
+};
+
+Inbox& inbox_of(GLFWwindow* window) { return *static_cast<Inbox*>(glfwGetWindowUserPointer(window)); }
+Events& events_of(GLFWwindow* window) { return inbox_of(window).events; }
 
 InputEvent at_pointer(GLFWwindow* window, InputKind kind) {
   InputEvent event;
   event.kind = kind;
-  glfwGetCursorPos(window, &event.x, &event.y);
+  event.x = inbox_of(window).x;
+  event.y = inbox_of(window).y;
   event.modifiers = held_modifiers(window);
   return event;
 }
 
 void on_move(GLFWwindow* window, double x, double y) {
   Events& events = events_of(window);
+  inbox_of(window).x = x;
+  inbox_of(window).y = y;
   if (!events.empty() && events.back().kind == InputKind::move) {  // only where it is now counts
     events.back().x = x;
     events.back().y = y;
     return;
   }
-  InputEvent event = at_pointer(window, InputKind::move);
-  event.x = x;
-  event.y = y;
-  events.push_back(std::move(event));
+  events.push_back(at_pointer(window, InputKind::move));
 }
 
 void on_enter(GLFWwindow* window, int entered) {
+  if (entered != 0) glfwGetCursorPos(window, &inbox_of(window).x, &inbox_of(window).y);
   events_of(window).push_back(at_pointer(window, entered != 0 ? InputKind::move : InputKind::leave));
 }
 
@@ -202,7 +212,7 @@ struct Window::State {
   DisplayLoss loss;
   Library library;
   Handle window;
-  Events events;
+  Inbox inbox;
   Functions functions;
   PFNGLGETGRAPHICSRESETSTATUSARBPROC reset_status = nullptr;
   std::array<GLFWcursor*, kShapes.size()> cursors{};  // made when first shown; they go with the library
@@ -220,7 +230,7 @@ Window::Window(const Extent& size, const std::string& title) : state_(std::make_
   };
   glfwSetWindowSizeLimits(window, scaled(kSmallest.width), scaled(kSmallest.height), GLFW_DONT_CARE,
                           GLFW_DONT_CARE);
-  glfwSetWindowUserPointer(window, &state_->events);
+  glfwSetWindowUserPointer(window, &state_->inbox);
   listen(window);
   glfwMakeContextCurrent(window);
   glfwSwapInterval(1);
@@ -257,7 +267,7 @@ std::vector<InputEvent> Window::poll(double wait_seconds) {
   } else {
     glfwPollEvents();
   }
-  return std::exchange(state_->events, {});
+  return std::exchange(state_->inbox.events, {});
 }
 
 void Window::wake() const { glfwPostEmptyEvent(); }

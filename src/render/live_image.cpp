@@ -72,7 +72,9 @@ bool LiveImage::has_work(bool paused) const noexcept {
 void LiveImage::set_budget(const Budget& budget) noexcept { request_.budget = budget; }
 
 std::shared_ptr<LiveFrame> LiveImage::step(const std::atomic<bool>& stop) {
-  return stage_ == Stage::full ? render_pass(stop) : render_coarse(stop);
+  std::shared_ptr<LiveFrame> frame = stage_ == Stage::full ? render_pass(stop) : render_coarse(stop);
+  shown_ = shown_ || frame;
+  return frame;
 }
 
 std::shared_ptr<LiveFrame> LiveImage::render_coarse(const std::atomic<bool>& stop) {

@@ -168,8 +168,10 @@ class Session::Worker {
   std::thread thread_;
 };
 
-Session::Session(int threads)
-    : shared_(std::make_unique<Shared>()), worker_(std::make_unique<Worker>(*shared_, threads)) {}
+Session::Session(int threads, std::uint64_t generation) : shared_(std::make_unique<Shared>()) {
+  shared_->generation = generation;
+  worker_ = std::make_unique<Worker>(*shared_, threads);
+}
 
 Session::~Session() = default;
 

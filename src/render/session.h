@@ -15,13 +15,14 @@ namespace meander {
 /// running pass and joins.
 class Session {
  public:
-  /// Traces on at most `threads` threads, at a lower priority than the rest of the process.
-  explicit Session(int threads);
+  /// Traces on at most `threads` threads, at a lower priority than the rest of the process. Generations go on
+  /// from `generation`, so that the frames of a session before it are never taken for this one's.
+  explicit Session(int threads, std::uint64_t generation = 0);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Replaces the job and returns its generation (1, 2, …). The running pass is stopped, except for the first
+  /// Replaces the job and returns its generation (1, 2, … from the one given). The running pass is stopped, except for the first
   /// image of a job in its first 60 ms: a stream of submits, however fast, shows images.
   std::uint64_t submit(SessionRequest request);
 

@@ -245,7 +245,7 @@ void sparkline(const Ui& ui, const StatisticsModel& model, const Area& area) {
 
 void side_panel(const Ui& ui, const UiModel& model, const Area& area) {
   ImGui::SetNextWindowPos({area.x, area.y});
-  ImGui::SetNextWindowSize({area.width, area.height});
+  ImGui::SetNextWindowSize({std::max(area.width, kLeastPanel), area.height});
   ImGui::Begin("panel", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |

@@ -2,6 +2,8 @@
 
 #include <imgui_internal.h>
 
+#include <algorithm>
+
 #include "ui/bars.h"
 #include "ui/dialogs.h"
 #include "ui/overlays.h"
@@ -71,7 +73,9 @@ UiActions draw_interface(const UiModel& model, UiState& state, const Layout& lay
 UiActions draw_panel(PanelName name, const UiModel& model, UiState& state, const Area& window) {
   UiActions actions;
   const Ui ui{state, actions};
-  begin_area("single panel", window, kPanelColor, {10, 0});
+  Area area = window;
+  area.width = std::max(area.width, kLeastPanel);
+  begin_area("single panel", area, kPanelColor, {10, 0});
   bool open = true;
   std::string title(kPanelNames[static_cast<std::size_t>(name)]);
   title[0] = static_cast<char>(title[0] - 'a' + 'A');

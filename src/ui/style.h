@@ -31,6 +31,7 @@ inline constexpr float kSmallSize = 11;
 inline constexpr float kRounding = 3;
 inline constexpr float kRowHeight = 20;
 inline constexpr float kListLine = 17;
+inline constexpr float kLeastPanel = 200;  // in a window narrower than its panel, that is cut off
 
 /// The fonts of the current context: for everything, for what is secondary, for headings.
 [[nodiscard]] ImFont* plain_font();

@@ -131,7 +131,7 @@ std::optional<int> segmented(const Row& row, const char* id, std::span<const std
     left += widths[index];
     ImGui::SetCursorScreenPos(low);
     ImGui::PushID(i);
-    if (ImGui::InvisibleButton("segment", {high.x - low.x, high.y - low.y})) pressed = i;
+    if (ImGui::InvisibleButton("segment", {std::max(high.x - low.x, 1.0f), high.y - low.y})) pressed = i;
     ImGui::PopID();
     const bool lit = i == chosen;
     if (lit || ImGui::IsItemHovered())

@@ -129,10 +129,10 @@ TEST_CASE("at 1280x720 the first screen needs no scrolling") {
 
 TEST_CASE("each panel alone fits into the width of the panel") {
   for (std::size_t i = 0; i < kPanelNames.size(); ++i) {
-    TestWindow window(328, 900);
+    TestWindow window(320, 900);
     for (int round = 0; round < 3; ++round) {
       window.interface.begin_frame(window.shape);
-      (void)draw_panel(static_cast<PanelName>(i), window.model, window.state, {0, 0, 328, 900});
+      (void)draw_panel(static_cast<PanelName>(i), window.model, window.state, {0, 0, 320, 900});
       window.drawn = window.interface.end_frame();
     }
     const std::vector<Glyph> glyphs = glyphs_of(*window.drawn);
