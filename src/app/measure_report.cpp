@@ -130,12 +130,20 @@ std::string measurement_csv(const std::vector<MeasuredCase>& cases) {
   text << "albedo,g,tau";
   for (const Quantity& q : quantities_of(cases.front()))
     text << ',' << q.name << ',' << q.name << "_standard_error";
-  text << ",walks,steps,seconds\n";
+  text << ",walks,steps,seconds";
+  if (cases.front().color) text << ",color_asked,color_delivered,color_standard_error,color_difference";
+  text << '\n';
   for (const MeasuredCase& m : cases) {
     text << exact(m.job.albedo) << ',' << exact(m.job.g) << ',' << exact(size_of(m.job));
     for (const Quantity& q : quantities_of(m))
       text << ',' << exact(q.moments->mean) << ',' << exact(q.moments->standard_error());
-    text << ',' << m.result.walks << ',' << m.result.steps << ',' << exact(m.result.seconds) << '\n';
+    text << ',' << m.result.walks << ',' << m.result.steps << ',' << exact(m.result.seconds);
+    if (m.color) {
+      const Delivered delivered = delivered_color(m.result);
+      text << ',' << exact(*m.color) << ',' << exact(delivered.color) << ','
+           << exact(delivered.standard_error) << ',' << exact(delivered.color - *m.color);
+    }
+    text << '\n';
   }
   return text.str();
 }
