@@ -27,8 +27,8 @@ struct MeasuredCase {
 
 /// One row a bin: quantity, range of the bin, value, standard error. Exitant radiance per unit incident
 /// irradiance over the cosine; reflectance and transmittance per area over the radius; absorbed fraction and
-/// fluence over the depth; fraction of the light over the path length. The bin that ends at infinity holds
-/// the rest, as a fraction. Empty when no bins were asked for.
+/// fluence over the depth; fraction of the light over the path length, and its mean path, from 0 to infinity.
+/// The bin that ends at infinity holds the rest, as a fraction. Empty when no bins were asked for.
 [[nodiscard]] std::string bins_csv(const MeasuredCase& measured);
 
 }  // namespace meander
