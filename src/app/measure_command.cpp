@@ -24,7 +24,7 @@ struct MeasureOptions {
   std::optional<double> sigma_s;
   std::optional<double> thickness;
   std::optional<double> color;
-  std::string inversion = "exact";
+  std::string inversion;  // empty: exact
   std::string boundary = "matched";
   std::optional<double> ior;
   double roughness = 0;
@@ -102,6 +102,7 @@ std::vector<double> albedos_of(const MeasureOptions& o, double g) {
       !o.albedo.empty() + (o.sigma_a.has_value() || o.sigma_s.has_value()) + o.color.has_value();
   if (given > 1)
     refuse("give the medium by --albedo, by --sigma-s with --sigma-a, or by --color, not by two of them");
+  if (!o.inversion.empty() && !o.color) refuse("--inversion is that of --color A");
   if (o.color) {
     require_in("--color", *o.color, 0, 1);
     const Inversion inversion = o.inversion == "chiang"         ? Inversion::chiang
@@ -167,6 +168,8 @@ std::vector<Shape> shapes_of(const MeasureOptions& o) {
     if (!(tau <= kThickest)) refuse("--thickness times the extinction must be at most 1e6");
     return {MeasuredSlab{tau}};
   }
+  if (o.tau.empty() && (o.sigma_a || o.sigma_s))
+    refuse("a slab in mm needs --thickness, such as --thickness 2");
   for (const double tau : parse_range("--tau", o.tau.empty() ? "1" : o.tau)) {
     if (!(tau > 0 && tau <= kThickest)) refuse("--tau must be greater than 0 and at most 1e6");
     shapes.emplace_back(MeasuredSlab{tau});
@@ -193,7 +196,8 @@ std::vector<MeasureJob> jobs_of(const MeasureOptions& o) {
       for (const double albedo : albedos_of(o, g)) {
         require_in("--albedo", albedo, 0, 1);
         if (std::holds_alternative<MeasuredHalfSpace>(shape) && albedo > 1 - 1e-6)
-          refuse("the mean path in a half-space is not finite for an albedo above 1 - 1e-6");
+          refuse(std::string(o.color ? "--color is too near 1: " : "") +
+                 "the mean path in a half-space is not finite for an albedo above 1 - 1e-6");
         job.shape = shape;
         job.g = g;
         job.albedo = albedo;
