@@ -24,7 +24,7 @@ struct MeasureOptions {
   std::optional<double> sigma_s;
   std::optional<double> thickness;
   std::optional<double> color;
-  std::string inversion = "exact";
+  std::string inversion;  // empty: exact
   std::string boundary = "matched";
   std::optional<double> ior;
   double roughness = 0;
@@ -102,6 +102,7 @@ std::vector<double> albedos_of(const MeasureOptions& o, double g) {
       !o.albedo.empty() + (o.sigma_a.has_value() || o.sigma_s.has_value()) + o.color.has_value();
   if (given > 1)
     refuse("give the medium by --albedo, by --sigma-s with --sigma-a, or by --color, not by two of them");
+  if (!o.inversion.empty() && !o.color) refuse("--inversion is that of --color A");
   if (o.color) {
     require_in("--color", *o.color, 0, 1);
     const Inversion inversion = o.inversion == "chiang"         ? Inversion::chiang
@@ -167,6 +168,8 @@ std::vector<Shape> shapes_of(const MeasureOptions& o) {
     if (!(tau <= kThickest)) refuse("--thickness times the extinction must be at most 1e6");
     return {MeasuredSlab{tau}};
   }
+  if (o.tau.empty() && (o.sigma_a || o.sigma_s))
+    refuse("a slab in mm needs --thickness, such as --thickness 2");
   for (const double tau : parse_range("--tau", o.tau.empty() ? "1" : o.tau)) {
     if (!(tau > 0 && tau <= kThickest)) refuse("--tau must be greater than 0 and at most 1e6");
     shapes.emplace_back(MeasuredSlab{tau});
@@ -193,7 +196,8 @@ std::vector<MeasureJob> jobs_of(const MeasureOptions& o) {
       for (const double albedo : albedos_of(o, g)) {
         require_in("--albedo", albedo, 0, 1);
         if (std::holds_alternative<MeasuredHalfSpace>(shape) && albedo > 1 - 1e-6)
-          refuse("the mean path in a half-space is not finite for an albedo above 1 - 1e-6");
+          refuse(std::string(o.color ? "--color is too near 1: " : "") +
+                 "the mean path in a half-space is not finite for an albedo above 1 - 1e-6");
         job.shape = shape;
         job.g = g;
         job.albedo = albedo;
@@ -208,12 +212,18 @@ int run_measure(const MeasureOptions& options) {
   const std::vector<MeasureJob> jobs = jobs_of(options);
   const BinOptions& asked = options.bins;
   if (options.json && options.csv) refuse("give --json or --csv, not both");
+// The colour that the measurement can be held to: colour is defined for a half-space in uniform light.
+std::optional<double> asked_color(const MeasureOptions& o, const MeasureJob& job) {
+  const bool defined = std::holds_alternative<MeasuredHalfSpace>(job.shape) && job.incidence.diffuse;
+  return defined ? o.color : std::nullopt;
+}
+
   if (jobs.size() > 1 && !options.json && asked.angular + asked.radial + asked.depth + asked.path > 0)
     refuse("bins of a range of media need --json");
   const std::atomic<bool>& stop = watch_interrupts();
   std::vector<MeasuredCase> cases;
   for (const MeasureJob& job : jobs) {
-    cases.push_back({job, measure(job, stop), per_length(options), options.color});
+    cases.push_back({job, measure(job, stop), per_length(options), asked_color(options, job)});
     if (stop) std::cerr << "meander: interrupted after " << cases.back().result.walks << " walks\n";
     if (stop && cases.back().result.walks == 0) cases.pop_back();
     if (stop) break;

@@ -42,16 +42,25 @@ std::string exact(double value) {
   return text;
 }
 
-// Mean paths of the light that came out, and the resolved bins.
+struct MeanPath {
+  const char* quantity;
+  double value;
+  double standard_error;
+};
+
+// Of the light that came out, in the unit of lengths asked for; where path lengths are resolved.
+std::vector<MeanPath> mean_paths(const MeasuredCase& m) {
+  if (m.job.bins.path == 0) return {};
+  const double unit = 1 / m.per_length;
+  const RatioOfSums& reflected = m.result.resolved.mean_path_reflected;
+  const RatioOfSums& transmitted = m.result.resolved.mean_path_transmitted;
+  return {{"mean_path_reflected", unit * reflected.value(), unit * reflected.standard_error()},
+          {"mean_path_transmitted", unit * transmitted.value(), unit * transmitted.standard_error()}};
+}
+
 void add_paths_and_bins(nlohmann::ordered_json& json, const MeasuredCase& m) {
-  const ResolvedBins& r = m.result.resolved;
-  if (m.job.bins.path > 0) {
-    const double unit = 1 / m.per_length;
-    json["mean_path_reflected"] = {{"value", unit * r.mean_path_reflected.value()},
-                                   {"standard_error", unit * r.mean_path_reflected.standard_error()}};
-    json["mean_path_transmitted"] = {{"value", unit * r.mean_path_transmitted.value()},
-                                     {"standard_error", unit * r.mean_path_transmitted.standard_error()}};
-  }
+  for (const MeanPath& path : mean_paths(m))
+    json[path.quantity] = {{"value", path.value}, {"standard_error", path.standard_error}};
   for (const BinTable& table : bin_tables(m)) {
     nlohmann::ordered_json bins = nlohmann::ordered_json::array();
     for (const BinValue& bin : table.bins) {
@@ -130,12 +139,20 @@ std::string measurement_csv(const std::vector<MeasuredCase>& cases) {
   text << "albedo,g,tau";
   for (const Quantity& q : quantities_of(cases.front()))
     text << ',' << q.name << ',' << q.name << "_standard_error";
-  text << ",walks,steps,seconds\n";
+  text << ",walks,steps,seconds";
+  if (cases.front().color) text << ",color_asked,color_delivered,color_standard_error,color_difference";
+  text << '\n';
   for (const MeasuredCase& m : cases) {
     text << exact(m.job.albedo) << ',' << exact(m.job.g) << ',' << exact(size_of(m.job));
     for (const Quantity& q : quantities_of(m))
       text << ',' << exact(q.moments->mean) << ',' << exact(q.moments->standard_error());
-    text << ',' << m.result.walks << ',' << m.result.steps << ',' << exact(m.result.seconds) << '\n';
+    text << ',' << m.result.walks << ',' << m.result.steps << ',' << exact(m.result.seconds);
+    if (m.color) {
+      const Delivered delivered = delivered_color(m.result);
+      text << ',' << exact(*m.color) << ',' << exact(delivered.color) << ','
+           << exact(delivered.standard_error) << ',' << exact(delivered.color - *m.color);
+    }
+    text << '\n';
   }
   return text.str();
 }
@@ -149,6 +166,8 @@ std::string bins_csv(const MeasuredCase& measured) {
     for (const BinValue& bin : table.bins)
       text << table.quantity << ',' << exact(bin.low) << ',' << exact(bin.high) << ',' << exact(bin.value)
            << ',' << exact(bin.standard_error) << '\n';
+  for (const MeanPath& path : mean_paths(measured))
+    text << path.quantity << ",0,inf," << exact(path.value) << ',' << exact(path.standard_error) << '\n';
   return text.str();
 }
 

@@ -89,6 +89,32 @@ assert abs(q['value'] - 40 / 3) < 4 * q['standard_error'], q
 PY
 [ "$("$meander" measure slab --albedo 0.1:0.9:9 --walks 1000 | wc -l)" -eq 10 ] || fail "a range is not a table"
 
+# A colour is a half-space's in uniform light: nothing else is held to it.
+color() { "$meander" measure "$@" --color 0.5 --walks 2000; }
+color halfspace | grep -q '^color asked 0.5' || fail "a colour asked for is not shown"
+! color slab | grep -q '^color' || fail "a slab is held to the colour of a half-space"
+! color sphere | grep -q '^color' || fail "a sphere is held to the colour of a half-space"
+! color halfspace --incidence normal | grep -q '^color' || fail "a beam is held to the colour of uniform light"
+color halfspace --csv | python3 -c '
+import csv, sys
+(row,) = csv.DictReader(sys.stdin)
+asked, delivered, difference = (float(row["color_" + name]) for name in ("asked", "delivered", "difference"))
+assert asked == 0.5 and abs(delivered - asked - difference) < 1e-8, row' || fail "the colour in CSV"
+
+# The mean paths of reflected and transmitted light are in every form of the path-resolved output.
+paths=(measure slab --sigma-s 10 --sigma-a 0.1 --thickness 0.5 --path-bins 4 --path 2 --walks 20000)
+"$meander" "${paths[@]}" --json > paths.json
+"$meander" "${paths[@]}" --csv > paths.csv
+"$meander" "${paths[@]}" | sed '1,/^$/d' | cmp - paths.csv || fail "the bins in the text differ from CSV"
+python3 - <<'PY' || fail "the mean paths"
+import csv, json
+means = json.load(open('paths.json'))
+rows = {row['quantity']: row for row in csv.DictReader(open('paths.csv'))}
+for name in ('mean_path_reflected', 'mean_path_transmitted'):
+    for key in ('value', 'standard_error'):
+        assert abs(float(rows[name][key]) / means[name][key] - 1) < 1e-8, (name, key)
+PY
+
 # An interrupt ends the pass, keeps what was complete, and is no failure.
 "$meander" render "$scene" -o stopped.exr --spp 1000000 --width 96 --height 54 2> stopped.txt &
 process=$!

@@ -90,6 +90,8 @@ refuse 'dielectric needs --ior' measure slab --boundary dielectric
 refuse '--radius is the range of --radial-bins' measure slab --radius 3
 refuse '--json or --csv' measure slab --json --csv
 refuse 'need --json' measure slab --albedo 0.1:0.9:3 --angular-bins 4
+refuse '--inversion is that of --color' measure halfspace --inversion chiang
+refuse 'a slab in mm needs --thickness' measure slab --sigma-s 10 --sigma-a 0.1
 refuse 'none.exr' compare in/none.exr in/none.exr
 
 # An open mesh is a warning with the number of open edges, not an error.

@@ -3,9 +3,9 @@
 // within 4 sqrt(2 / N) of 1.
 //
 //   reference_rows                      every seventh row at a relative standard error of 1 %
-//   reference_rows --all                every row at 0.2 %; tests/reference/z_scores.csv is written as rows
-//   end reference_rows --all --resume       keeps the rows that the file already has reference_rows --rows
-//   TEXT          only the rows whose name contains TEXT, at 0.2 %; no file
+//   reference_rows --all                every row at 0.2 %; z_scores.csv is written as rows end
+//   reference_rows --all --resume       keeps the rows that the file already has
+//   reference_rows --rows TEXT          only the rows whose name contains TEXT, at 0.2 %; no file
 //   ... --threads N                     all threads by default
 //
 // A row's walks are as many as bring each of its totals (R, T; of spheres the absorbed and the escaping
@@ -50,6 +50,7 @@ struct Score {
 
 const std::string kFile = std::string(MEANDER_SOURCE_DIR) + "/tests/reference/z_scores.csv";
 constexpr std::uint64_t kPilot = 20000;
+constexpr int kFewRuns = 20;
 
 Options parse(int argc, char** argv) {
   Options o;
@@ -151,7 +152,8 @@ bool report(const std::vector<Score>& scores, double target) {
   }
   const double bound = two_sided_threshold(sidak_level(1e-3, scores.size()));
   const double width = 4 * std::sqrt(2.0 / runs);
-  const bool passed = worst < bound && std::abs(squares / runs - 1) < width;
+  // The width is that of a normal law, which the mean of a few squares does not follow.
+  const bool passed = worst < bound && (runs < kFewRuns || std::abs(squares / runs - 1) < width);
   std::printf(
       "%zu values of %d runs: largest |z| %.2f (bound %.2f), mean of z^2 %.3f (1 +- %.3f), %d totals above "
       "%.1f %% relative standard error: %s\n",

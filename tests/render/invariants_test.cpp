@@ -30,7 +30,7 @@ Material surface_of(Boundary boundary, double ior, double roughness) {
               {Rgb(1, 2, 4), Rgb(Real(0.95), Real(0.8), Real(0.99)), Real(0.4)}, boundary, ior, roughness}};
 }
 
-// A knot seen by an orthographic camera along one direction and lit by a parallel beam along another.
+// A box seen by an orthographic camera along one direction and lit by a parallel beam along another.
 Scene beam_scene(const Material& material, const DVec3& view, const DVec3& beam) {
   Scene scene;
   scene.camera = {-10.0 * view, {0, 0, 0}, {0, 1, 0}, 40, 2.4};
