@@ -208,16 +208,16 @@ std::vector<MeasureJob> jobs_of(const MeasureOptions& o) {
   return jobs;
 }
 
-int run_measure(const MeasureOptions& options) {
-  const std::vector<MeasureJob> jobs = jobs_of(options);
-  const BinOptions& asked = options.bins;
-  if (options.json && options.csv) refuse("give --json or --csv, not both");
 // The colour that the measurement can be held to: colour is defined for a half-space in uniform light.
 std::optional<double> asked_color(const MeasureOptions& o, const MeasureJob& job) {
   const bool defined = std::holds_alternative<MeasuredHalfSpace>(job.shape) && job.incidence.diffuse;
   return defined ? o.color : std::nullopt;
 }
 
+int run_measure(const MeasureOptions& options) {
+  const std::vector<MeasureJob> jobs = jobs_of(options);
+  const BinOptions& asked = options.bins;
+  if (options.json && options.csv) refuse("give --json or --csv, not both");
   if (jobs.size() > 1 && !options.json && asked.angular + asked.radial + asked.depth + asked.path > 0)
     refuse("bins of a range of media need --json");
   const std::atomic<bool>& stop = watch_interrupts();
