@@ -72,17 +72,6 @@ void add_paths_and_bins(nlohmann::ordered_json& json, const MeasuredCase& m) {
   }
 }
 
-// What leaves from below over what entered: the surface colour that was delivered, and its standard error.
-struct Delivered {
-  double color;
-  double standard_error;
-};
-Delivered delivered_color(const Measurement& r) {
-  const double entered = 1 - r.specular_reflectance.mean;
-  return {(r.reflectance.mean - r.specular_reflectance.mean) / entered,
-          r.reflectance.standard_error() / entered};
-}
-
 }  // namespace
 
 std::string measurement_text(const MeasuredCase& measured) {
@@ -95,10 +84,10 @@ std::string measurement_text(const MeasuredCase& measured) {
   }
   const Measurement& r = measured.result;
   if (measured.color) {
-    const Delivered delivered = delivered_color(r);
+    const RatioOfSums& delivered = r.from_below;
     std::snprintf(line, sizeof line, "color asked %.6f, delivered %.6f +- %.6f, difference %+.6f\n",
-                  *measured.color, delivered.color, delivered.standard_error,
-                  delivered.color - *measured.color);
+                  *measured.color, delivered.value(), delivered.standard_error(),
+                  delivered.value() - *measured.color);
     text += line;
   }
   std::snprintf(line, sizeof line, "%llu walks, %llu steps, %.2f s\n",
@@ -119,11 +108,11 @@ std::string measurement_json(const std::vector<MeasuredCase>& cases, bool list) 
     for (const Quantity& q : quantities_of(measured))
       one[q.name] = {{"value", q.moments->mean}, {"standard_error", q.moments->standard_error()}};
     if (measured.color) {
-      const Delivered delivered = delivered_color(measured.result);
+      const RatioOfSums& delivered = measured.result.from_below;
       one["color"] = {{"asked", *measured.color},
-                      {"delivered", delivered.color},
-                      {"standard_error", delivered.standard_error},
-                      {"difference", delivered.color - *measured.color}};
+                      {"delivered", delivered.value()},
+                      {"standard_error", delivered.standard_error()},
+                      {"difference", delivered.value() - *measured.color}};
     }
     add_paths_and_bins(one, measured);
     one["walks"] = measured.result.walks;
@@ -148,9 +137,9 @@ std::string measurement_csv(const std::vector<MeasuredCase>& cases) {
       text << ',' << exact(q.moments->mean) << ',' << exact(q.moments->standard_error());
     text << ',' << m.result.walks << ',' << m.result.steps << ',' << exact(m.result.seconds);
     if (m.color) {
-      const Delivered delivered = delivered_color(m.result);
-      text << ',' << exact(*m.color) << ',' << exact(delivered.color) << ','
-           << exact(delivered.standard_error) << ',' << exact(delivered.color - *m.color);
+      const RatioOfSums& delivered = m.result.from_below;
+      text << ',' << exact(*m.color) << ',' << exact(delivered.value()) << ','
+           << exact(delivered.standard_error()) << ',' << exact(delivered.value() - *m.color);
     }
     text << '\n';
   }

@@ -204,6 +204,7 @@ class MeasuredWalk {
     result_.specular_reflectance.add(t.specular);
     result_.absorptance.add(t.absorptance);
     result_.mean_path_length.add(t.path);
+    result_.from_below.add(t.reflected, 1 - t.specular);
     result_.resolved.mean_path_reflected.add(t.reflected_path, t.reflected);
     result_.resolved.mean_path_transmitted.add(t.transmitted_path, t.transmitted);
     result_.resolved.end_walk();
@@ -258,6 +259,7 @@ void Measurement::merge(const Measurement& other) {
   specular_reflectance.merge(other.specular_reflectance);
   absorptance.merge(other.absorptance);
   mean_path_length.merge(other.mean_path_length);
+  from_below.merge(other.from_below);
   resolved.merge(other.resolved);
   walks += other.walks;
   steps += other.steps;

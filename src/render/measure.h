@@ -51,6 +51,7 @@ struct Measurement {
   Moments specular_reflectance;
   Moments absorptance;
   Moments mean_path_length;
+  RatioOfSums from_below;  // of what entered, what leaves again where it entered: the half-space's colour
   ResolvedBins resolved;
   std::uint64_t walks = 0;
   std::uint64_t steps = 0;

@@ -87,8 +87,10 @@ TEST_CASE("a half-space under a rough interface delivers the colour it was asked
     job.walks = 500000;
     job.threads = 2;
     const Measurement m = measure(job, kRun);
+    const double delivered = m.from_below.value();
     const double entered = 1 - m.specular_reflectance.mean;
-    const double delivered = (m.reflectance.mean - m.specular_reflectance.mean) / entered;
+    CHECK(delivered * entered ==
+          doctest::Approx(m.reflectance.mean - m.specular_reflectance.mean).epsilon(1e-9));
     CAPTURE(c.color);
     CAPTURE(delivered);
     CHECK(std::abs(delivered - c.color) < 0.002);
@@ -96,6 +98,27 @@ TEST_CASE("a half-space under a rough interface delivers the colour it was asked
     const double smooth = ColorMap(c.g, {Boundary::dielectric, c.ior}).color(job.albedo);
     if (c.roughness >= 0.5) CHECK(std::abs(smooth - c.color) > 0.004);
   }
+}
+
+TEST_CASE("the standard error of a delivered colour is the spread of independent measurements") {
+  MeasureJob job;
+  job.shape = MeasuredHalfSpace{};
+  job.boundary = Boundary::dielectric;
+  job.ior = 1.5;
+  job.roughness = 0.5;
+  job.albedo = 0.3;  // dark: most of what comes back was mirrored, which is no part of the colour
+  job.incidence = {true, 1};
+  job.walks = 2000;
+  Moments colors;
+  Moments errors;
+  for (job.seed = 0; job.seed < 200; ++job.seed) {
+    const Measurement m = measure(job, kRun);
+    colors.add(m.from_below.value());
+    errors.add(m.from_below.standard_error());
+  }
+  const double spread = colors.standard_error() * std::sqrt(200.0);
+  // The spread of 200 normal values is known to 5 %.
+  CHECK(std::abs(spread / errors.mean - 1) < 0.2);
 }
 
 TEST_CASE("a rough interface of almost no roughness measures as the smooth one") {
