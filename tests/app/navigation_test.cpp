@@ -66,7 +66,8 @@ TEST_CASE("buttons and modifiers choose the move") {
   CHECK(kind_of(3, {}) == DragKind::none);
 }
 
-TEST_CASE("L turns the key light, Shift+L the environment, until it is let go or the window loses the keyboard") {
+TEST_CASE(
+    "L turns the key light, Shift+L the environment, until it is let go or the window loses the keyboard") {
   Mouse mouse;
   mouse.move(200, 100);
   mouse.key('L', true);
