@@ -13,6 +13,7 @@ struct Witness {
   std::vector<std::string> told;
   std::vector<InputEvent> events;
   bool image = true;
+  bool ends = false;  // nothing is rendered any more
   std::uint64_t samples = 0;
 
   ScriptStage stage() {
@@ -27,6 +28,7 @@ struct Witness {
     };
     stage.shows_edits = [this] { return image; };
     stage.spp = [this] { return samples; };
+    if (ends) stage.idle = [] { return true; };
     stage.write_snapshot = [this](const std::string& path) { told.push_back("snapshot " + path); };
     stage.resize = [this](int width, int height) {
       told.push_back("size " + std::to_string(width) + ' ' + std::to_string(height));
@@ -102,6 +104,20 @@ TEST_CASE("buttons and drops are where the pointer is") {
   CHECK(is_at(17, 61, 82));
   CHECK(is_at(19, 7, 8));
   CHECK(is_at(20, 7, 8));
+}
+
+TEST_CASE("a wait that would never end is an error, but only where no user can end it") {
+  for (const char* text : {"set a\nwait-spp 8\n", "set a\nwait-image\n"}) {
+    Witness witness;
+    witness.image = false;
+    const auto wait = [&] {
+      ScriptPlayer script = player(text);
+      for (int frame = 0; frame < 1000; ++frame) script.play(witness.stage(), frame);
+    };
+    CHECK_NOTHROW(wait());
+    witness.ends = true;
+    CHECK_THROWS_WITH_AS(wait(), doctest::Contains("s.txt:2: "), Error);
+  }
 }
 
 TEST_CASE("a refused edit is an error with the script's line") {

@@ -86,6 +86,10 @@ printf 'wait-image\nsnapshoot out/step.png\n' >wrong.txt
 refuse "wrong.txt:2:1: there is no command 'snapshoot'; did you mean 'snapshot'?" --script wrong.txt
 printf 'wait-image\nset material.jade.g=0\nsnapshot out/step.png\n' >edit.txt
 refuse 'edit.txt:2: ' --script edit.txt
+printf 'wait-spp 3\n' >late.txt
+refuse 'late.txt:1: rendering ends before' --script late.txt
+printf 'key Space\n' >paused.txt
+picture "1280 720" paused --ui --script paused.txt
 refuse '--crop' --ui --crop 0,0,8,8
 refuse '--stats' --panel light --stats out/stats.json
 
