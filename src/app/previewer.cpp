@@ -308,6 +308,8 @@ void Previewer::carry_out(const Command& command) {
       const auto& after = state_.settings.budget;
       if (before.spp != after.spp || before.error != after.error || before.seconds != after.seconds)
         session_->set_budget(after);
+      if (command.kind == CommandKind::save || command.kind == CommandKind::save_scene)
+        files_.wrote(state_.history.now().path());
     }
   } catch (const Error& error) {
     state_.tell(MessageKind::error, error.what());

@@ -4,6 +4,12 @@
 
 namespace meander {
 
+auto ScriptPlayer::wait_for(bool reached, const ScriptStage& stage, const char* what) const -> Outcome {
+  if (reached) return Outcome::taken;
+  if (stage.idle && stage.idle() && frames_ > kHopeless) throw Error(Fault::input, what);
+  return Outcome::waiting;
+}
+
 auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, double now) -> Outcome {
   if (const auto* set = std::get_if<SetStep>(&step)) {
     stage.apply(set->edit);
@@ -20,9 +26,9 @@ auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, d
     return Outcome::taken_frame;
   }
   if (const auto* spp = std::get_if<WaitSppStep>(&step))
-    return stage.spp() >= spp->spp ? Outcome::taken : Outcome::waiting;
+    return wait_for(stage.spp() >= spp->spp, stage, "rendering ends before that many samples: raise --spp");
   if (std::holds_alternative<WaitImageStep>(step))
-    return stage.shows_edits() ? Outcome::taken : Outcome::waiting;
+    return wait_for(stage.shows_edits(), stage, "there will be no picture to wait for");
   if (const auto* wait = std::get_if<WaitStep>(&step)) {
     if (!wait_until_) wait_until_ = now + wait->seconds;
     if (now < *wait_until_) return Outcome::waiting;

@@ -17,6 +17,7 @@ struct ScriptStage {
   std::function<void(const InputEvent&)> feed;    // an event of keyboard or mouse
   std::function<bool()> shows_edits;              // whether the picture is of all edits so far
   std::function<std::uint64_t()> spp;  // samples a pixel of the picture that all edits so far ask for
+  std::function<bool()> idle;  // whether nothing is being rendered; empty where a user may change that
   std::function<void(const std::string&)> write_snapshot;  // the frame last drawn, to a PNG
   std::function<void(int, int)> resize;
   std::function<void()> quit;
@@ -30,14 +31,16 @@ class ScriptPlayer {
 
   /// Plays what this frame may take: any number of edits, but one event, so that the interface sees each; a
   /// snapshot waits for kSettle frames without another step, so that it shows what went before. `now` in
-  /// seconds. Error (input) with the script's line when an edit is refused.
+  /// seconds. Error (input) with the script's line when an edit is refused, or a wait would never end.
   void play(const ScriptStage& stage, double now);
   [[nodiscard]] bool done() const noexcept { return next_ == script_.size(); }
 
  private:
   static constexpr int kSettle = 3;
+  static constexpr int kHopeless = 200;  // frames of waiting while nothing is rendered
   enum class Outcome { taken, taken_frame, waiting };
 
+  [[nodiscard]] Outcome wait_for(bool reached, const ScriptStage& stage, const char* what) const;
   [[nodiscard]] Outcome play_step(const ScriptStep& step, const ScriptStage& stage, double now);
 
   std::vector<ScriptLine> script_;
