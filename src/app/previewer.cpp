@@ -264,6 +264,7 @@ void Previewer::list_folder_for_browser() {
 
 void Previewer::carry_out_all(const UiActions& actions) {
   if (actions.gesture_started) set_gesture(true);
+  if (actions.gesture_resumed) state_.history.resume_gesture();
   for (const std::string& edit : actions.edits) {
     try {
       SceneDocument document = state_.history.now();
