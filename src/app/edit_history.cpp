@@ -9,14 +9,25 @@ void EditHistory::change(SceneDocument next) {
     if (past_.size() == kMostSteps) past_.erase(past_.begin());
     past_.push_back(now_);
     recorded_ = gesture_;
+    resumable_ = false;
   }
   future_.clear();
   now_ = std::move(next);
 }
 
+void EditHistory::end_gesture() {
+  if (recorded_ && now_ == past_.back()) {
+    past_.pop_back();
+    recorded_ = false;
+  }
+  if (gesture_) resumable_ = recorded_;
+  gesture_ = recorded_ = false;
+}
+
 bool EditHistory::undo() {
-  if (past_.empty()) return false;
   end_gesture();
+  resumable_ = false;
+  if (past_.empty()) return false;
   future_.push_back(std::move(now_));
   now_ = std::move(past_.back());
   past_.pop_back();
@@ -24,8 +35,9 @@ bool EditHistory::undo() {
 }
 
 bool EditHistory::redo() {
-  if (future_.empty()) return false;
   end_gesture();
+  resumable_ = false;
+  if (future_.empty()) return false;
   past_.push_back(std::move(now_));
   now_ = std::move(future_.back());
   future_.pop_back();

@@ -19,7 +19,11 @@ class EditHistory {
   /// Makes `next` the document. Within a gesture all changes together are one step.
   void change(SceneDocument next);
   void begin_gesture() noexcept { gesture_ = true; }
-  void end_gesture() noexcept { gesture_ = recorded_ = false; }
+  /// A gesture that comes back to where it began leaves no step.
+  void end_gesture();
+  /// Makes the gesture that has begun one with the last, as the second click of a double one is. Nothing
+  /// where the last changed nothing, or was followed by something else.
+  void resume_gesture() noexcept { recorded_ = recorded_ || (gesture_ && resumable_); }
 
   /// False when there is nothing to take back, or to do again.
   [[nodiscard]] bool undo();
@@ -32,7 +36,8 @@ class EditHistory {
   std::vector<SceneDocument> past_;
   std::vector<SceneDocument> future_;
   bool gesture_ = false;
-  bool recorded_ = false;  // this gesture has its step
+  bool recorded_ = false;   // this gesture has its step
+  bool resumable_ = false;  // the last step is that of the gesture that ended last
 };
 
 }  // namespace meander

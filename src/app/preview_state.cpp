@@ -6,10 +6,13 @@
 namespace meander {
 namespace {
 
+// Of an object, or else one that no object has; empty when there is none.
 std::string first_translucent(const Scene& scene) {
   for (const Object& object : scene.objects)
     if (std::holds_alternative<TranslucentMaterial>(scene.materials[object.material].kind))
       return scene.materials[object.material].name;
+  for (const Material& material : scene.materials)
+    if (std::holds_alternative<TranslucentMaterial>(material.kind)) return material.name;
   return {};
 }
 
@@ -20,6 +23,20 @@ bool is_there(const Scene& scene, const std::string& name) {
 }
 
 }  // namespace
+
+bool shows_live(const PreviewLook& look, double across) {
+  switch (look.comparison) {
+    case Comparison::none:
+      return look.a < 0;
+    case Comparison::wipe:
+      return (across < static_cast<double>(look.wipe) ? look.a : look.b) < 0;
+    case Comparison::only_b:
+      return look.b < 0;
+    case Comparison::difference:
+      return false;
+  }
+  return false;
+}
 
 PreviewState::PreviewState(SceneDocument document) : history(document), original(std::move(document)) {
   resolve();

@@ -36,6 +36,9 @@ struct PreviewLook {
   std::optional<PixelBox> region;  // in film pixels at 100 %
 };
 
+/// Whether what is seen that far across the picture, of its width, is the live picture and nothing else.
+[[nodiscard]] bool shows_live(const PreviewLook& look, double across);
+
 struct PreviewState {
   explicit PreviewState(SceneDocument document);
 
@@ -53,6 +56,10 @@ struct PreviewState {
 
   void tell(MessageKind kind, std::string text, std::vector<std::string> details = {}) {
     messages.push_back({next_message++, kind, std::move(text), std::move(details), 0});
+  }
+  /// Takes back the message of that number, if it is still there.
+  void withdraw(std::uint64_t id) {
+    std::erase_if(messages, [id](const Message& message) { return message.id == id; });
   }
   /// Makes this document the one under edit, as a step of undo. Error when it does not read any more.
   void change(SceneDocument next);

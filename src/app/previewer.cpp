@@ -158,11 +158,19 @@ void Previewer::take_drop(const InputEvent& event) {
   }
 }
 
-void Previewer::reload_scene() {
+std::uint64_t Previewer::tell_error(const Error& error) {
+  state_.tell(MessageKind::error, error.what());
+  return state_.messages.back().id;
+}
+
+void Previewer::reload_scene(bool though_equal) {
+  frames_due_ = kSettleFrames;
+  state_.withdraw(scene_error_);
   try {
     SceneDocument fresh = state_.history.now().reopened();
     if (fresh.text() == state_.history.now().text()) {
-      state_.resolve();  // a mesh or a picture has changed, not the scene file
+      if (!though_equal) return;  // as after it was saved here
+      state_.resolve();           // a mesh or a picture has changed, not the scene file
       submit(false);
     } else {
       state_.change(std::move(fresh));
@@ -170,17 +178,19 @@ void Previewer::reload_scene() {
     }
     state_.tell(MessageKind::note, "reloaded what changed on disk");
   } catch (const Error& error) {
-    state_.tell(MessageKind::error, error.what());
+    scene_error_ = tell_error(error);
   }
 }
 
 void Previewer::reload_shaders() {
+  frames_due_ = kSettleFrames;
+  state_.withdraw(shader_error_);
   try {
     pictures_.reload();
     interface_view_.reload();
     state_.tell(MessageKind::note, "reloaded the shaders");
   } catch (const Error& error) {
-    state_.tell(MessageKind::error, error.what());
+    shader_error_ = tell_error(error);
   }
 }
 
@@ -188,7 +198,10 @@ void Previewer::watch_files(double now) {
   if (!options_.watches_files || now - last_watch_ < kWatchSeconds) return;
   last_watch_ = now;
   files_.watch(state_.history.now().watched_files());
-  if (!files_.changed().empty()) reload_scene();
+  const std::vector<std::string> changed = files_.changed();
+  const std::string& scene = state_.history.now().path();
+  const bool scene_alone = changed.size() == 1 && changed.front() == scene;
+  if (!changed.empty()) reload_scene(!scene_alone);
   if (!shaders_.changed().empty()) reload_shaders();
 }
 
@@ -267,6 +280,7 @@ void Previewer::list_folder_for_browser() {
 
 void Previewer::carry_out_all(const UiActions& actions) {
   if (actions.gesture_started) set_gesture(true);
+  if (actions.gesture_resumed) state_.history.resume_gesture();
   for (const std::string& edit : actions.edits) {
     try {
       SceneDocument document = state_.history.now();
@@ -297,7 +311,7 @@ void Previewer::carry_out(const Command& command) {
       paused_ = !paused_;
       session_->set_paused(paused_);
     } else if (command.kind == CommandKind::reload) {
-      reload_scene();
+      reload_scene(true);
       reload_shaders();
     } else if (command.kind == CommandKind::threads) {
       state_.settings.threads = static_cast<int>(command.index);

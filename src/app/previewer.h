@@ -12,6 +12,7 @@
 #include "app/preview_model.h"
 #include "app/preview_pictures.h"
 #include "app/preview_state.h"
+#include "core/error.h"
 #include "display/interface_view.h"
 #include "render/session.h"
 #include "ui/interface.h"
@@ -69,7 +70,8 @@ class Previewer {
   void submit_if_changed(double now);
   void submit(bool interactive);
   void watch_files(double now);
-  void reload_scene();
+  void reload_scene(bool though_equal);
+  std::uint64_t tell_error(const Error& error);
   void reload_shaders();
   void move_picture(const PictureMove& move);
   void drag_camera(const CameraDrag& drag);
@@ -96,6 +98,8 @@ class Previewer {
   ClipboardAccess clipboard_;
   FileWatch files_;
   FileWatch shaders_;
+  std::uint64_t scene_error_ = 0;   // the message that the scene file does not read, until it does
+  std::uint64_t shader_error_ = 0;  // likewise of the shaders
   Layout layout_;
   Area film_area_;  // the film's picture in the window, points of the interface
   float pointer_scale_ = 1;

@@ -81,6 +81,8 @@ std::optional<PointedPixel> Previewer::pointed() const {
   const auto x = static_cast<float>(navigation_.x);
   const auto y = static_cast<float>(navigation_.y);
   if (!contains(film_area_, x, y) || !contains(layout_.image, x, y)) return std::nullopt;
+  const double across = static_cast<double>((x - film_area_.x) / film_area_.width);
+  if (!shows_live(state_.look, across)) return std::nullopt;
   const FilmSize& film = state_.scene->film;
   return PointedPixel{
       static_cast<int>((x - film_area_.x) / film_area_.width * static_cast<float>(film.width)),

@@ -72,12 +72,13 @@ struct Command {
 
 /// Of one frame. Each edit is `PATH=VALUE`, exactly as --set takes it. All edits between gesture_started and
 /// gesture_ended are one step of undo (both may come in one frame: a click); the edits of the frame in which
-/// it ends belong to it.
+/// it ends belong to it. A gesture that is resumed is one with the gesture before it: a double click.
 struct UiActions {
   std::vector<std::string> edits;
   std::vector<Command> commands;
   bool gesture_started = false;
   bool gesture_ended = false;
+  bool gesture_resumed = false;
 };
 
 }  // namespace meander

@@ -193,8 +193,8 @@ struct OverlayModel {
   Area film;
   int film_width = 960;
   int film_height = 540;
-  double points_per_mm = 0;  // at the subject; 0 hides the ruler
-  double mean_free_path_mm = 0;
+  double points_per_mm = 0;        // at the subject; 0 hides the ruler
+  double mean_free_path_mm = 0;    // 0 where there is no medium: no ruler then
   double diffusion_length_mm = 0;  // infinite without absorption
   std::optional<PixelBox> region;
   bool selecting = false;  // the next drag in the picture draws the rectangle

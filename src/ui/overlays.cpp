@@ -44,6 +44,7 @@ void ruler_line(const ImVec2& at, float bar_width, float length, const std::stri
 
 void ruler(const OverlayModel& model, const Area& image) {
   if (!(model.points_per_mm > 0) || image.width < 200 || image.height < 120) return;
+  if (!(model.mean_free_path_mm > 0)) return;  // no medium, no length
   const std::string free_path = "mean free path " + length_text(model.mean_free_path_mm);
   const std::string diffusion = "diffusion length " + length_text(model.diffusion_length_mm);
   const float words = std::max(text_width(small_font(), free_path), text_width(small_font(), diffusion));

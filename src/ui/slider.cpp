@@ -34,7 +34,7 @@ void hold(const Ui& ui, const Field& field, double value) {
   const double place = place_of(field.spec.map, value);
   const bool on_handle = std::abs(io.MousePos.x - field.x_of(place)) < kGrabReach;
   const double pressed = static_cast<double>((io.MousePos.x - field.box.Min.x) / field.box.GetWidth());
-  ui.state.drag = {field.id, on_handle || io.KeyShift ? place : pressed};
+  ui.state.drag = {field.id, on_handle || io.KeyShift ? place : pressed, field.id};
 }
 
 // The value under the pointer that holds the slider.
@@ -54,9 +54,11 @@ std::optional<double> drag(const Ui& ui, const Field& field, double value) {
     ImGui::SetActiveID(field.id, context.CurrentWindow);
     ImGui::SetFocusID(field.id, context.CurrentWindow);
     ImGui::FocusWindow(context.CurrentWindow);
+    const bool again = io.MouseDoubleClicked[0] && ui.state.drag.pressed == field.id;
     hold(ui, field, value);
-    if (io.MouseDoubleClicked[0]) {
+    if (again) {
       ui.state.drag.id = 0;
+      ui.actions.gesture_resumed = true;
       if (field.spec.reset != value) return field.spec.reset;
       return std::nullopt;
     }

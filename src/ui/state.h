@@ -23,6 +23,7 @@ enum class BrowserUse : std::uint8_t { closed, open, save_scene, save_picture };
 struct SliderDrag {
   std::uint32_t id = 0;
   double place = 0;
+  std::uint32_t pressed = 0;  // the slider that was pressed last
 };
 
 /// The slider that is being typed into.

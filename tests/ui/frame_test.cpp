@@ -128,10 +128,24 @@ TEST_CASE("a double click resets to what the scene file has") {
   window.model.material.now.g = 0.4;
   window.frame();
   const ImVec2 at = find_control(window, window.layout().panel, panel_id("Material", "##g"));
-  click(window, at);
+  CHECK_FALSE(click(window, at).gesture_resumed);
   const UiActions again = click(window, at);
   REQUIRE(!again.edits.empty());
   CHECK(again.edits.back() == "material.wax.g=0.0");
+  CHECK(again.gesture_resumed);
+}
+
+TEST_CASE("two quick clicks on two sliders are no double click") {
+  TestWindow window(1280, 720);
+  window.model.material.now.g = 0.4;
+  window.frame();
+  const ImVec2 at = find_control(window, window.layout().panel, panel_id("Material", "##g"));
+  window.state.drag.pressed = 0;
+  window.frame({button(at.x, at.y, true), button(at.x, at.y, false)});
+  window.state.drag.pressed = 1;  // as though the first had been on another, a few points away
+  const UiActions second = click(window, at);
+  CHECK_FALSE(second.gesture_resumed);
+  CHECK(std::find(second.edits.begin(), second.edits.end(), "material.wax.g=0.0") == second.edits.end());
 }
 
 TEST_CASE("Ctrl and a click type a number, beyond the slider's ends, and Enter gives it") {

@@ -125,6 +125,7 @@ UiActions TestWindow::frame(const std::vector<InputEvent>& events) {
     all.commands.insert(all.commands.end(), actions.commands.begin(), actions.commands.end());
     all.gesture_started |= actions.gesture_started;
     all.gesture_ended |= actions.gesture_ended;
+    all.gesture_resumed |= actions.gesture_resumed;
   } while (interface.pending());
   return all;
 }
