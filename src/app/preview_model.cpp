@@ -196,16 +196,17 @@ ViewModel view_model(const PreviewState& state) {
   return model;
 }
 
-std::optional<LegendModel> legend_model(View view) {
+std::optional<LegendModel> legend_model(View view, double millimetres_per_unit) {
   if (!has_scale(view)) return std::nullopt;
   const ViewRange range = default_range(view);
   LegendModel legend;
   legend.title = view == View::noise         ? "relative standard error"
                  : view == View::samples     ? "samples a pixel"
                  : view == View::scatterings ? "mean number of scatterings"
-                                             : "mean walk length, scene units";
-  legend.low = range.low;
-  legend.high = range.high;
+                                             : "mean walk length, mm";
+  const double unit = view == View::length ? millimetres_per_unit : 1;
+  legend.low = unit * static_cast<double>(range.low);
+  legend.high = unit * static_cast<double>(range.high);
   legend.percent = view == View::noise;
   return legend;
 }
@@ -230,7 +231,7 @@ OverlayModel overlay_model(const PreviewState& state, const ModelInputs& inputs,
   }
   model.region = state.look.region;
   model.selecting = state.look.selecting;
-  model.legend = legend_model(state.look.view);
+  model.legend = legend_model(state.look.view, scene.millimetres_per_unit);
   if (state.look.comparison != Comparison::none) {
     model.title_a = title_of(inputs.pictures, state.look.a);
     model.title_b = title_of(inputs.pictures, state.look.b);

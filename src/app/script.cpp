@@ -180,6 +180,7 @@ Steps read_key(LineReader& line) {
   InputEvent event = key_event(line);
   Steps steps{EventStep{event}};
   event.down = false;
+  event.modifiers = {};  // released first, or a text that follows would be typed with Ctrl held
   steps.emplace_back(EventStep{event});
   return steps;
 }

@@ -109,9 +109,11 @@ void note_boundary(const TranslucentMaterial& material, std::vector<std::string>
 void note_walk(const DVec3& albedo, double g, std::vector<std::string>& notes) {
   const double least = std::min({albedo.x, albedo.y, albedo.z});
   const double largest = std::max({albedo.x, albedo.y, albedo.z});
-  if (largest > kCyclesLargestAlbedo) notes.push_back("an albedo above 0.999999 is cut there");
+  if (largest > kCyclesLargestAlbedo)
+    notes.push_back("a single-scattering albedo above 0.999999 is cut there");
   if (least < kLeastWalkedAlbedo)
-    notes.push_back("an albedo below 0.2 is walked as 0.2, right for one scattering, too bright beyond");
+    notes.push_back(
+        "a single-scattering albedo below 0.2 is walked as 0.2, right for one scattering, too bright beyond");
   if (outlives(albedo, kWalkLimit))
     notes.push_back("Cycles ends a walk after 256 steps, and with it the light it still carries");
   if (g != 0) notes.push_back("Cycles walks isotropically, by similarity, after nine scatterings");
@@ -131,7 +133,8 @@ ExportPiece subsurface(const ExportTask& task) {
   const double scale = std::max({radius.x, radius.y, radius.z});
   piece.remarks = {
       "Base Color is not the look but what Cycles' inversion (Wrenninge et al. 2017) turns into our",
-      "albedo; Radius x Scale = 4 pi / (sigma_t (1 - g)). RANDOM_WALK takes the radius as it is,",
+      "single-scattering albedo; Radius x Scale = 4 pi / (sigma_t (1 - g)). RANDOM_WALK takes the radius as "
+      "it is,",
       "RANDOM_WALK_SKIN would rescale it by the colour. Blender 5.2 calls it RANDOM_WALK_LEGACY."};
   const std::string ior = number_text(material.ior);
   piece.code = new_material(task.name);

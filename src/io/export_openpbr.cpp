@@ -27,10 +27,10 @@ std::string input(const std::string& name, const DVec3& value) {
 
 void note_boundary(const TranslucentMaterial& material, std::vector<std::string>& notes) {
   if (has_index_step(material))
-    notes.push_back(
-        "the map from subsurface_color knows no interface (ior " + short_text(material.ior) +
-        "): a renderer with a map that does makes another albedo of it. Here a half-space shows " +
-        short_text(surface_color(material)));
+    notes.push_back("the map from subsurface_color knows no interface (ior " + short_text(material.ior) +
+                    "): a renderer with a map that does makes another single-scattering albedo of it. Here a "
+                    "half-space shows " +
+                    short_text(surface_color(material)));
   if (material.boundary == Boundary::diffuse)
     notes.push_back("a diffuse boundary: OpenPBR has a smooth dielectric one of the same ior " +
                     short_text(material.ior));
@@ -53,10 +53,12 @@ ExportPiece openpbr_piece(const ExportTask& task) {
     worst = std::max(worst, std::abs(openpbr_albedo(color[c], g) - albedo));
   }
   if (worst > kUnreached)
-    piece.notes.push_back("the map does not reach so low an albedo: it is too large by " + short_text(worst));
+    piece.notes.push_back("the map does not reach so low a single-scattering albedo: it is too large by " +
+                          short_text(worst));
   note_boundary(material, piece.notes);
   piece.remarks = {
-      "subsurface_color is what van de Hulst's map, as OpenPBR 1.1 writes it, turns into our albedo;",
+      "subsurface_color is what van de Hulst's map, as OpenPBR 1.1 writes it, turns into our "
+      "single-scattering albedo;",
       "radius x radius_scale is the mean free path 1 / sigma_t."};
   const std::string surface = task.identifier + "_surface";
   piece.code = "  <open_pbr_surface name=\"" + surface + "\" type=\"surfaceshader\">\n";

@@ -38,7 +38,8 @@ ExportPiece interior(const ExportTask& task) {
   ExportPiece piece;
   const TranslucentMaterial& material = task.material;
   piece.remarks = {
-      "Glass with an interior, which takes albedo and extinction as they are: the subsurface lobe",
+      "Glass with an interior, which takes single-scattering albedo and extinction as they are: the "
+      "subsurface lobe",
       "knows no reflection back inside. For PxrPathTracer; its limit of indirect bounces ends",
       "walks, so raise it."};
   if (material.roughness > 0)
@@ -85,7 +86,7 @@ ExportPiece subsurface(const ExportTask& task) {
       "Path-traced subsurface: subsurfaceColor is the surface colour, Dmfp x DmfpColor the diffuse",
       "mean free path in mm, unitLength the scene units in a mm. subsurfaceType 5 is meant as exponential",
       "path tracing; its number is in no public page: check it."};
-  piece.notes.push_back("sigma_t and the albedo " + triple_text(DVec3(medium.albedo), " ") +
+  piece.notes.push_back("sigma_t and the single-scattering albedo " + triple_text(DVec3(medium.albedo), " ") +
                         ": PxrSurface makes its own of colour and diffuse mean free path");
   const DVec3 length = diffuse_mean_free_path(medium, task.millimetres_per_unit, piece.notes);
   const double longest = std::max({length.x, length.y, length.z});

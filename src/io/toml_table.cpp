@@ -1,5 +1,6 @@
 #include "io/toml_table.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -157,19 +158,33 @@ const toml::array* TomlTable::tables(std::string_view key) {
   return node->as_array();
 }
 
+void TomlTable::unknown(const toml::key& key, const toml::node& node,
+                        std::span<const std::string_view> known) const {
+  const std::string name(key.str());
+  const std::string nearest = nearest_name(name, known);
+  Place at = place_of(node, file_);
+  if (at.line > 0)
+    at = {file_, static_cast<int>(key.source().begin.line), static_cast<int>(key.source().begin.column)};
+  throw Error(at,
+              "unknown key '" + name + "' in " + where_ +
+                  (nearest.empty() ? "; known: " + list_names(known) : "; did you mean '" + nearest + "'?"));
+}
+
+void TomlTable::missing(std::string_view key) const {
+  for (const auto& [present, node] : table_) {
+    const bool asked = std::find(asked_.begin(), asked_.end(), present.str()) != asked_.end();
+    if (!asked && !nearest_name(std::string(present.str()), {&key, 1}).empty())
+      unknown(present, node, {&key, 1});
+  }
+  throw Error(place(), where_ + " needs '" + std::string(key) + "'");
+}
+
 void TomlTable::finish() const {
   for (const auto& [key, node] : table_) {
     bool known = false;
     for (const std::string_view asked : asked_) known |= asked == key.str();
     if (known) continue;
-    const std::string name(key.str());
-    const std::string nearest = nearest_name(name, asked_);
-    Place at = place_of(node, file_);
-    if (at.line > 0)
-      at = {file_, static_cast<int>(key.source().begin.line), static_cast<int>(key.source().begin.column)};
-    throw Error(
-        at, "unknown key '" + name + "' in " + where_ +
-                (nearest.empty() ? "; known: " + list_names(asked_) : "; did you mean '" + nearest + "'?"));
+    unknown(key, node, asked_);
   }
 }
 

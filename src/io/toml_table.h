@@ -65,10 +65,11 @@ class TomlTable {
   /// A list of tables, `[[key]]`; null when there is none.
   [[nodiscard]] const toml::array* tables(std::string_view key);
 
-  /// The value, or an error that says that the table must have it.
+  /// The value, or an error that says that the table must have it, or that names the key that was meant for
+  /// it.
   template <class T>
   [[nodiscard]] T required(std::optional<T> value, std::string_view key) const {
-    if (!value) throw Error(place(), where_ + " needs '" + std::string(key) + "'");
+    if (!value) missing(key);
     return *value;
   }
 
@@ -81,6 +82,9 @@ class TomlTable {
 
  private:
   [[nodiscard]] const toml::node* find(std::string_view key);
+  [[noreturn]] void missing(std::string_view key) const;
+  [[noreturn]] void unknown(const toml::key& key, const toml::node& node,
+                            std::span<const std::string_view> known) const;
   [[nodiscard]] double checked(const toml::node& node, std::string_view key, const Range& range) const;
   [[noreturn]] void wrong_type(const toml::node& node, std::string_view key, std::string_view wanted) const;
 

@@ -41,7 +41,7 @@ TEST_CASE("a script is a list of steps with their lines") {
   CHECK(std::holds_alternative<QuitStep>(script[5].step));
 }
 
-TEST_CASE("keys are pressed and released, with their modifiers") {
+TEST_CASE("keys are pressed with their modifiers, and all are released") {
   const auto script = parse_script("key Ctrl+Shift+z\nkey F12\nkey ?\nkey space\nkey +", "s.txt");
   REQUIRE(script.size() == 10);
   const InputEvent& undo = std::get<EventStep>(script[0].step).event;
@@ -49,6 +49,7 @@ TEST_CASE("keys are pressed and released, with their modifiers") {
   CHECK(undo.down);
   CHECK(undo.modifiers == Modifiers{true, true, false, false});
   CHECK_FALSE(std::get<EventStep>(script[1].step).event.down);
+  CHECK(std::get<EventStep>(script[1].step).event.modifiers == Modifiers{});
   CHECK(std::get<EventStep>(script[2].step).event.code == key::kF12);
   CHECK(std::get<EventStep>(script[4].step).event.code == '?');
   CHECK(std::get<EventStep>(script[6].step).event.code == key::kSpace);

@@ -280,7 +280,7 @@ TEST_CASE("a note where something is lost") {
   CHECK(has_note(notes(diffuse, Renderer::openpbr), "diffuse boundary"));
   CHECK(has_note(notes(diffuse, Renderer::renderman), "reflected back inside"));
   CHECK(has_note(notes(material({0, 0.5, 0.9}, DVec3(1), 0.99, Boundary::matched), Renderer::openpbr),
-                 "so low an albedo"));
+                 "so low a single-scattering albedo"));
   const TranslucentMaterial extreme = material({0.1, 0.9, 1}, DVec3(1), 0.5, Boundary::dielectric, 3.9);
   for (const char* word : {"0.999999", "below 0.2", "256", "similarity", "refracted by 3.8"})
     CHECK(has_note(notes(extreme, Renderer::cycles), word));

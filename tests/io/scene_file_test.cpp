@@ -96,6 +96,8 @@ TEST_CASE("bad input is one line with the place, the wrong value and the right o
   CHECK(error_of(kWax + "albedo = 0.5\nmean_free_path = 1\ng = 1\n") ==
         ":5:5: 'g' is 1, but must be greater than -1 and less than 1, by 1e-7 at least");
   CHECK(error_of(kWax + "albedo = 0.5\n") == ":1:1: [[material]] needs 'mean_free_path'");
+  CHECK(error_of(kWax + "colour = 0.5\nradius = 1\n") ==
+        ":3:1: unknown key 'colour' in [[material]]; did you mean 'color'?");
   CHECK(error_of(kWax + "sigma_s = 1\nalbedo = 0.5\n")
             .starts_with(":3:11: 'sigma_s' and 'albedo' describe the medium twice"));
   CHECK(error_of(kWax).starts_with(":1:1: [[material]] needs color + radius"));
