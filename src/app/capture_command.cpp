@@ -64,9 +64,7 @@ int capture_film(const RenderOptions& options, const CaptureLook& look) {
 }
 
 SceneDocument open_document(const RenderOptions& options, const CaptureLook& look) {
-  SceneDocument document = SceneDocument::open(options.scene, options.edits);
-  if (options.width) document.apply("film.width=" + std::to_string(*options.width));
-  if (options.height) document.apply("film.height=" + std::to_string(*options.height));
+  SceneDocument document = SceneDocument::open(options.scene, all_edits(options));
   if (look.exposure) document.apply("display.exposure=" + std::to_string(*look.exposure));
   if (look.tone) document.apply("display.tone=" + *look.tone);
   return document;

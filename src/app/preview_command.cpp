@@ -28,11 +28,10 @@ std::string default_scene() {
 
 int preview(const RenderOptions& options, const WindowOptions& asked) {
   SceneDocument document =
-      SceneDocument::open(options.scene.empty() ? default_scene() : options.scene, options.edits);
-  if (options.width) document.apply("film.width=" + std::to_string(*options.width));
-  if (options.height) document.apply("film.height=" + std::to_string(*options.height));
+      SceneDocument::open(options.scene.empty() ? default_scene() : options.scene, all_edits(options));
   PreviewOptions preview_options;
   preview_options.settings = preview_settings(options);
+  preview_options.edits = all_edits(options);
   Extent size{1280, 720};
   if (!asked.window.empty()) size = {asked.window[0], asked.window[1]};
   std::optional<PlayedScript> script;

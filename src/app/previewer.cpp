@@ -163,19 +163,29 @@ std::uint64_t Previewer::tell_error(const Error& error) {
   return state_.messages.back().id;
 }
 
-void Previewer::reload_scene(bool though_equal) {
+// The scene file as it now is on disk, with the edits of the command line.
+void Previewer::reload_scene() {
   frames_due_ = kSettleFrames;
   state_.withdraw(scene_error_);
   try {
     SceneDocument fresh = state_.history.now().reopened();
-    if (fresh.text() == state_.history.now().text()) {
-      if (!though_equal) return;  // as after it was saved here
-      state_.resolve();           // a mesh or a picture has changed, not the scene file
-      submit(false);
-    } else {
-      state_.change(std::move(fresh));
-      state_.settle();
-    }
+    for (const std::string& edit : options_.edits) fresh.apply(edit);
+    if (fresh.text() == state_.history.now().text()) return;  // as after it was saved here
+    state_.change(std::move(fresh));
+    state_.settle();
+    state_.tell(MessageKind::note, "reloaded the scene");
+  } catch (const Error& error) {
+    scene_error_ = tell_error(error);
+  }
+}
+
+// Meshes and pictures as they now are on disk; what was edited stays.
+void Previewer::reload_parts() {
+  frames_due_ = kSettleFrames;
+  state_.withdraw(scene_error_);
+  try {
+    state_.resolve();
+    submit(false);
     state_.tell(MessageKind::note, "reloaded what changed on disk");
   } catch (const Error& error) {
     scene_error_ = tell_error(error);
@@ -199,9 +209,12 @@ void Previewer::watch_files(double now) {
   last_watch_ = now;
   files_.watch(state_.history.now().watched_files());
   const std::vector<std::string> changed = files_.changed();
-  const std::string& scene = state_.history.now().path();
-  const bool scene_alone = changed.size() == 1 && changed.front() == scene;
-  if (!changed.empty()) reload_scene(!scene_alone);
+  // A bare mesh in the studio is a part like any other.
+  const std::filesystem::path scene = state_.history.now().path();
+  const bool scene_file = scene.extension() == ".toml" &&
+                          std::find(changed.begin(), changed.end(), scene.string()) != changed.end();
+  if (changed.size() > (scene_file ? 1 : 0)) reload_parts();
+  if (scene_file) reload_scene();
   if (!shaders_.changed().empty()) reload_shaders();
 }
 
@@ -311,7 +324,8 @@ void Previewer::carry_out(const Command& command) {
       paused_ = !paused_;
       session_->set_paused(paused_);
     } else if (command.kind == CommandKind::reload) {
-      reload_scene(true);
+      reload_parts();
+      reload_scene();
       reload_shaders();
     } else if (command.kind == CommandKind::threads) {
       state_.settings.threads = static_cast<int>(command.index);

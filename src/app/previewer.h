@@ -28,6 +28,7 @@ struct PreviewOptions {
   bool hidden = false;                  // no interface, the picture alone
   std::optional<PanelName> only_panel;  // nothing but this panel
   bool watches_files = true;
+  std::vector<std::string> edits;  // of the command line: made again when the scene file is read again
 };
 
 /// What a frame is drawn into: the bound framebuffer, `pixels_wide` x `pixels_high` pixels, of `scale` pixels
@@ -70,7 +71,8 @@ class Previewer {
   void submit_if_changed(double now);
   void submit(bool interactive);
   void watch_files(double now);
-  void reload_scene(bool though_equal);
+  void reload_scene();
+  void reload_parts();
   std::uint64_t tell_error(const Error& error);
   void reload_shaders();
   void move_picture(const PictureMove& move);

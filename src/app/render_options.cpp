@@ -108,6 +108,13 @@ void add_render_options(CLI::App& verb, RenderOptions& o) {
   verb.add_flag("--quiet", o.quiet, "say nothing but errors");
 }
 
+std::vector<std::string> all_edits(const RenderOptions& options) {
+  std::vector<std::string> edits = options.edits;
+  if (options.width) edits.push_back("film.width=" + std::to_string(*options.width));
+  if (options.height) edits.push_back("film.height=" + std::to_string(*options.height));
+  return edits;
+}
+
 PreviewSettings preview_settings(const RenderOptions& options) {
   PreviewSettings settings;
   settings.threads = options.threads > 0 ? std::min(options.threads, hardware_threads()) : hardware_threads();

@@ -34,6 +34,9 @@ struct RenderOptions {
 /// Declares what ends an image, its size and its edits, which all verbs that trace share.
 void add_budget_options(CLI::App& verb, RenderOptions& options);
 
+/// The edits, and the film's size as further ones.
+[[nodiscard]] std::vector<std::string> all_edits(const RenderOptions& options);
+
 /// The previewer's settings that these options ask for.
 [[nodiscard]] PreviewSettings preview_settings(const RenderOptions& options);
 
