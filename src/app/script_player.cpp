@@ -20,9 +20,9 @@ auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, d
     return Outcome::taken_frame;
   }
   if (const auto* spp = std::get_if<WaitSppStep>(&step))
-    return stage.spp() >= spp->spp ? Outcome::taken : Outcome::waiting;
+    return came_through() && stage.spp() >= spp->spp ? Outcome::taken : Outcome::waiting;
   if (std::holds_alternative<WaitImageStep>(step))
-    return stage.shows_edits() ? Outcome::taken : Outcome::waiting;
+    return came_through() && stage.shows_edits() ? Outcome::taken : Outcome::waiting;
   if (const auto* wait = std::get_if<WaitStep>(&step)) {
     if (!wait_until_) wait_until_ = now + wait->seconds;
     if (now < *wait_until_) return Outcome::waiting;
@@ -30,7 +30,7 @@ auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, d
     return Outcome::taken;
   }
   if (const auto* snapshot = std::get_if<SnapshotStep>(&step)) {
-    if (frames_ < kSettle) return Outcome::waiting;
+    if (!came_through()) return Outcome::waiting;
     stage.write_snapshot(snapshot->path);
     return Outcome::taken;
   }

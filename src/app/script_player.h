@@ -29,13 +29,15 @@ class ScriptPlayer {
       : script_(std::move(script)), file_(std::move(file)) {}
 
   /// Plays what this frame may take: any number of edits, but one event, so that the interface sees each; a
-  /// snapshot waits for kSettle frames without another step, so that it shows what went before. `now` in
+  /// snapshot, or a wait for a picture, waits for kSettle frames without another step: what went before has
+  /// then come through the interface. `now` in
   /// seconds. Error (input) with the script's line when an edit is refused.
   void play(const ScriptStage& stage, double now);
   [[nodiscard]] bool done() const noexcept { return next_ == script_.size(); }
 
  private:
   static constexpr int kSettle = 3;
+  [[nodiscard]] bool came_through() const noexcept { return frames_ >= kSettle; }
   enum class Outcome { taken, taken_frame, waiting };
 
   [[nodiscard]] Outcome play_step(const ScriptStep& step, const ScriptStage& stage, double now);
