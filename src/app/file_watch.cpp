@@ -24,6 +24,11 @@ void FileWatch::watch(const std::vector<std::string>& files) {
   seen_ = std::move(next);
 }
 
+void FileWatch::wrote(const std::string& file) {
+  const auto known = seen_.find(file);
+  if (Stamp stamp; known != seen_.end() && stamp_of(file, stamp)) known->second = stamp;
+}
+
 std::vector<std::string> FileWatch::changed() {
   std::vector<std::string> files;
   for (auto& [file, seen] : seen_) {

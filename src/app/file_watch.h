@@ -17,6 +17,9 @@ class FileWatch {
   /// while an editor replaces it, is not reported until it is back.
   [[nodiscard]] std::vector<std::string> changed();
 
+  /// A watched file that we have written ourselves: its change is none.
+  void wrote(const std::string& file);
+
  private:
   struct Stamp {
     std::filesystem::file_time_type time;

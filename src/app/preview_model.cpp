@@ -213,7 +213,7 @@ std::optional<LegendModel> legend_model(View view, double millimetres_per_unit) 
 
 std::string title_of(const PreviewPictures& pictures, int index) {
   if (index < 0 || static_cast<std::size_t>(index) >= pictures.snapshots().size()) return "live";
-  return pictures.snapshots()[static_cast<std::size_t>(index)].label;
+  return std::to_string(index + 1) + " · " + pictures.snapshots()[static_cast<std::size_t>(index)].label;
 }
 
 OverlayModel overlay_model(const PreviewState& state, const ModelInputs& inputs,

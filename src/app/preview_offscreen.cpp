@@ -14,6 +14,8 @@
 namespace meander {
 namespace {
 
+constexpr int kHopeless = 200;
+
 // The frame that is drawn into, which a script may resize.
 class Easel {
  public:
@@ -46,6 +48,17 @@ class Easel {
   float scale_;
 };
 
+// A paused preview shows what it has; otherwise there is a reason for no picture.
+void refuse_nothing(const Previewer& previewer, bool stopped) {
+  if (stopped)
+    throw Error(Fault::runtime, "interrupted before the first pass was complete; nothing was written");
+  if (previewer.first_image_seconds()) return;
+  std::string reason = "there is no picture";
+  for (const Message& message : previewer.state().messages)
+    if (message.kind == MessageKind::error) reason = message.text;
+  throw Error(Fault::runtime, reason);
+}
+
 }  // namespace
 
 Image8 run_offscreen(const SceneDocument& document, const PreviewOptions& options,
@@ -62,6 +75,7 @@ Image8 run_offscreen(const SceneDocument& document, const PreviewOptions& option
   stage.feed = [&](const InputEvent& event) { previewer.feed(event); };
   stage.shows_edits = [&] { return previewer.first_image_seconds().has_value(); };
   stage.spp = [&] { return previewer.spp(); };
+  stage.idle = [&] { return previewer.idle(); };
   stage.write_snapshot = [&](const std::string& path) { write_png(path, easel.read(), {}); };
   stage.resize = [&](int width, int height) { easel.resize(width, height); };
   stage.quit = [&quit] { quit = true; };
@@ -69,10 +83,14 @@ Image8 run_offscreen(const SceneDocument& document, const PreviewOptions& option
   if (asked.script) player.emplace(asked.script->lines, asked.script->file);
   const Timer timer;
   double drawn = 0;
+  int hopeless =
+      0;          // looks at a session that does nothing, and has no full picture either: paused, or failed
   int still = 0;  // frames drawn since the last picture arrived: the interface comes to rest
   while (!quit && !stop && !previewer.closing()) {
     const bool due = previewer.update(timer.seconds());
-    const bool done = previewer.spp() > 0 && previewer.idle() && (!player || player->done());
+    const bool resting = previewer.idle() && (!player || player->done());
+    const bool done = resting && (previewer.spp() > 0 || ++hopeless > kHopeless);
+    if (!resting) hopeless = 0;
     if (due || player || done) {
       easel.draw(previewer, timer.seconds() - drawn);
       drawn = timer.seconds();
@@ -82,8 +100,7 @@ Image8 run_offscreen(const SceneDocument& document, const PreviewOptions& option
     if (still > 3) break;
     if (!due) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  if (previewer.spp() == 0 && !quit && !previewer.closing())
-    throw Error(Fault::runtime, "interrupted before the first pass was complete; nothing was written");
+  if (previewer.spp() == 0 && !quit && !previewer.closing()) refuse_nothing(previewer, stop);
   return easel.read();
 }
 

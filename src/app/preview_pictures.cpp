@@ -112,7 +112,7 @@ void PreviewPictures::make_thumbnail(Snapshot& snapshot, const FilmPlanes* plane
 bool PreviewPictures::keep(const SceneDocument& document, const Display& display) {
   if (!live_) return false;
   Snapshot snapshot;
-  snapshot.label = std::to_string(snapshots_.size() + 1);
+  snapshot.label = std::to_string(live_->spp) + " spp";
   snapshot.document = document;
   snapshot.frame = live_;
   snapshot.version = next_version_++;

@@ -16,6 +16,7 @@ namespace {
 constexpr double kWatchSeconds = 0.4;    // between two looks at the files
 constexpr double kRefineSeconds = 0.15;  // a held drag that rests this long is refined
 constexpr double kTickSeconds = 0.1;     // the status line's pace while the session works
+constexpr double kLeastFrameSeconds = 1.0 / 40;
 constexpr double kMessageSeconds = 6;
 constexpr float kBackdrop = 0.105f;  // around the picture
 constexpr int kSettleFrames = 3;     // Dear ImGui needs some frames to come to rest
@@ -217,11 +218,13 @@ bool Previewer::update(double now) {
   watch_files(now);
   submit_if_changed(now);
   if (const auto error = session_->take_error()) state_.tell(MessageKind::error, *error);
-  if (pictures_.take(session_->latest())) frames_due_ = std::max(frames_due_, 1);
+  const bool fresh = pictures_.take(session_->latest());
+  if (fresh) frames_due_ = std::max(frames_due_, 1);
   if (state_.messages.size() != messages) frames_due_ = std::max(frames_due_, kSettleFrames);
   if (interface_.pending()) frames_due_ = std::max(frames_due_, 1);
   if (session_->working() && now - last_draw_ > kTickSeconds) frames_due_ = std::max(frames_due_, 1);
-  return frames_due_ > 0;
+  // Software OpenGL draws on the cores that trace: frames without a new picture would cost pictures.
+  return fresh || (frames_due_ > 0 && now - last_draw_ >= kLeastFrameSeconds);
 }
 
 FilmPlacement Previewer::place_film(const PreviewSurface& surface) const {
@@ -322,6 +325,8 @@ void Previewer::carry_out(const Command& command) {
       const auto& after = state_.settings.budget;
       if (before.spp != after.spp || before.error != after.error || before.seconds != after.seconds)
         session_->set_budget(after);
+      if (command.kind == CommandKind::save || command.kind == CommandKind::save_scene)
+        files_.wrote(state_.history.now().path());
     }
   } catch (const Error& error) {
     state_.tell(MessageKind::error, error.what());

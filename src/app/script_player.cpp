@@ -1,8 +1,16 @@
 #include "app/script_player.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace meander {
+
+auto ScriptPlayer::wait_for(bool reached, const ScriptStage& stage, const char* what) const -> Outcome {
+  if (reached && frames_since_event_ >= kSettle) return Outcome::taken;
+  if (stage.idle && stage.idle() && frames_ > kHopeless) throw Error(Fault::input, what);
+  return Outcome::waiting;
+}
 
 auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, double now) -> Outcome {
   if (const auto* set = std::get_if<SetStep>(&step)) {
@@ -17,12 +25,13 @@ auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, d
       told.y = pointer_[1];
     }
     stage.feed(told);
+    frames_since_event_ = 0;
     return Outcome::taken_frame;
   }
   if (const auto* spp = std::get_if<WaitSppStep>(&step))
-    return came_through() && stage.spp() >= spp->spp ? Outcome::taken : Outcome::waiting;
+    return wait_for(stage.spp() >= spp->spp, stage, "rendering ends before that many samples: raise --spp");
   if (std::holds_alternative<WaitImageStep>(step))
-    return came_through() && stage.shows_edits() ? Outcome::taken : Outcome::waiting;
+    return wait_for(stage.shows_edits(), stage, "there will be no picture to wait for");
   if (const auto* wait = std::get_if<WaitStep>(&step)) {
     if (!wait_until_) wait_until_ = now + wait->seconds;
     if (now < *wait_until_) return Outcome::waiting;
@@ -30,7 +39,7 @@ auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, d
     return Outcome::taken;
   }
   if (const auto* snapshot = std::get_if<SnapshotStep>(&step)) {
-    if (!came_through()) return Outcome::waiting;
+    if (frames_ < kSettle) return Outcome::waiting;
     stage.write_snapshot(snapshot->path);
     return Outcome::taken;
   }
@@ -44,6 +53,7 @@ auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, d
 
 void ScriptPlayer::play(const ScriptStage& stage, double now) {
   ++frames_;
+  frames_since_event_ = std::min(frames_since_event_ + 1, kSettle);
   while (!done()) {
     const ScriptLine& line = script_[next_];
     Outcome outcome = Outcome::waiting;

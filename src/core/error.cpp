@@ -12,8 +12,7 @@ std::string at_place(const Place& place, const std::string& message) {
   if (place.line > 0) {
     text += ':';
     text += std::to_string(place.line);
-    text += ':';
-    text += std::to_string(place.column);
+    if (place.column > 0) text += ':' + std::to_string(place.column);
   }
   text += ": ";
   text += message;

@@ -82,16 +82,19 @@ struct Changed {
   std::array<bool, 3> buttons{};
   std::array<bool, 512> keys{};
   bool any_button = false;
+  bool moved = false;
 };
 
 bool in_range(const InputEvent& event, std::size_t size) {
   return event.code >= 0 && static_cast<std::size_t>(event.code) < size;
 }
 
-// Whether the event has to wait for the next frame: ImGui 1.86 knows states, not what happened in between.
+// Whether the event has to wait for the next frame: ImGui 1.86 knows states, not what happened in between. A
+// release waits for the move before it, which is the end of a drag.
 bool must_wait(const InputEvent& event, const Changed& changed) {
   if (event.kind == InputKind::button)
-    return in_range(event, changed.buttons.size()) && changed.buttons[static_cast<std::size_t>(event.code)];
+    return in_range(event, changed.buttons.size()) &&
+           (changed.buttons[static_cast<std::size_t>(event.code)] || (!event.down && changed.moved));
   if (event.kind == InputKind::key)
     return in_range(event, changed.keys.size()) && changed.keys[static_cast<std::size_t>(event.code)];
   return event.kind == InputKind::move && changed.any_button;
@@ -106,6 +109,7 @@ void apply_event(ImGuiIO& io, const InputEvent& event, float pointer_scale, Chan
     case InputKind::move:
       move_pointer(io, event, pointer_scale);
       set_modifiers(io, event.modifiers);
+      changed.moved = true;
       break;
     case InputKind::leave:
       if (!ImGui::IsAnyMouseDown()) io.MousePos = {kOutside, kOutside};

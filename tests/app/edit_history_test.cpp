@@ -2,82 +2,63 @@
 
 #include <doctest/doctest.h>
 
+#include "app/preview_desk.h"
+
 using namespace meander;
 
 namespace {
 
-const SceneDocument kSphere = SceneDocument::from_text(
-    "[[material]]\nname = \"wax\"\ncolor = 0.8\nradius = 0.1\n"
-    "[[object]]\nname = \"ball\"\nshape = \"sphere\"\nmaterial = \"wax\"\n",
-    "ball.toml");
-
-SceneDocument with_exposure(const SceneDocument& document, int stops) {
-  SceneDocument next = document;
-  next.apply("display.exposure=" + std::to_string(stops));
-  return next;
+SceneDocument with_width(SceneDocument document, int width) {
+  document.apply("film.width=" + std::to_string(width));
+  return document;
 }
 
-double exposure(const EditHistory& history) { return history.now().scene().scene.display.exposure; }
-
-// The number of steps that can be taken back.
-int steps(EditHistory history) {
-  int count = 0;
-  while (history.undo()) ++count;
-  return count;
-}
-
-void drag(EditHistory& history, int stops) {
-  history.begin_gesture();
-  history.change(with_exposure(history.now(), stops - 1));
-  history.change(with_exposure(history.now(), stops));
-  history.end_gesture();
-}
+int width_of(const EditHistory& history) { return history.now().scene().scene.film.width; }
 
 }  // namespace
 
-TEST_CASE("a drag is one step, and a drag that comes back is none") {
-  EditHistory history(kSphere);
-  drag(history, 3);
-  CHECK(steps(history) == 1);
-  drag(history, 3);
-  CHECK(steps(history) == 1);
-  drag(history, 5);
-  CHECK(steps(history) == 2);
-  CHECK(history.undo());
-  CHECK(exposure(history) == 3);
-  CHECK(history.redo());
-  CHECK(exposure(history) == 5);
+TEST_CASE("undo and redo walk through the documents; a change drops what could be done again") {
+  EditHistory history(SceneDocument::open(kKnot));
+  CHECK_FALSE(history.undo());
+  CHECK_FALSE(history.redo());
+  for (const int width : {10, 20, 30}) history.change(with_width(history.now(), width));
+  REQUIRE(history.undo());
+  REQUIRE(history.undo());
+  CHECK(width_of(history) == 10);
+  REQUIRE(history.redo());
+  CHECK(width_of(history) == 20);
+  history.change(with_width(history.now(), 40));
+  CHECK_FALSE(history.can_redo());
+  REQUIRE(history.undo());
+  CHECK(width_of(history) == 20);
+  REQUIRE(history.undo());
+  REQUIRE(history.undo());
+  CHECK(history.now() == SceneDocument::open(kKnot));
+  CHECK_FALSE(history.can_undo());
 }
 
-TEST_CASE("a resumed gesture is one step with the last, if that changed something and nothing came between") {
-  EditHistory history(kSphere);
-  drag(history, 3);
+TEST_CASE("all changes of a gesture are one step, and an empty gesture is none") {
+  EditHistory history(SceneDocument::open(kKnot));
+  history.change(with_width(history.now(), 10));
   history.begin_gesture();
-  history.resume_gesture();
-  history.change(with_exposure(history.now(), 7));
   history.end_gesture();
-  CHECK(steps(history) == 1);
+  history.begin_gesture();
+  for (int width = 11; width < 40; ++width) history.change(with_width(history.now(), width));
+  history.end_gesture();
+  history.change(with_width(history.now(), 50));
+  REQUIRE(history.undo());
+  CHECK(width_of(history) == 39);
+  REQUIRE(history.undo());
+  CHECK(width_of(history) == 10);
+  REQUIRE(history.redo());
+  CHECK(width_of(history) == 39);
+}
 
-  history.change(with_exposure(history.now(), 8));
-  history.begin_gesture();
-  history.resume_gesture();
-  history.change(with_exposure(history.now(), 9));
-  history.end_gesture();
-  CHECK(steps(history) == 3);
-
-  history.begin_gesture();  // a click that changes nothing
-  history.end_gesture();
-  history.begin_gesture();
-  history.resume_gesture();
-  history.change(with_exposure(history.now(), 10));
-  history.end_gesture();
-  CHECK(steps(history) == 4);
-
-  drag(history, 12);
-  CHECK(history.undo());
-  history.begin_gesture();
-  history.resume_gesture();
-  history.change(with_exposure(history.now(), 13));
-  history.end_gesture();
-  CHECK(steps(history) == 5);
+TEST_CASE("five hundred steps are kept, the newest") {
+  EditHistory history(SceneDocument::open(kKnot));
+  for (int width = 1; width <= 510; ++width) history.change(with_width(history.now(), width));
+  int steps = 0;
+  while (history.undo()) ++steps;
+  CHECK(steps == 500);
+  CHECK(width_of(history) == 10);
 }

@@ -24,6 +24,10 @@ TEST_CASE("a watched file is reported once when it changes, and not while it is 
   CHECK(watch.changed().empty());
   write("back again");
   CHECK(watch.changed() == std::vector<std::string>{file});
+  write("our own words");
+  watch.wrote(file);
+  watch.wrote("never watched");
+  CHECK(watch.changed().empty());
   write("unseen by the next list");
   watch.watch({});
   CHECK(watch.changed().empty());

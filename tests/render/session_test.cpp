@@ -224,6 +224,24 @@ TEST_CASE("a pause keeps the film, and the session goes on from it") {
   CHECK(session.latest()->spp == 4);
 }
 
+TEST_CASE("under a pause every film shows something of an edit, also one too small for coarse images") {
+  Session session(2);
+  session.set_paused(true);
+  for (const auto& [width, height] : {std::pair{16, 9}, std::pair{160, 96}}) {
+    const std::uint64_t generation = session.submit(request(mixed_scene(), 1000000, width, height));
+    CHECK(wait_for(session, [&](const LiveFrame& f) { return f.generation == generation; }));
+    for (const Timer timer; session.working() && timer.seconds() < 60;) std::this_thread::sleep_for(1ms);
+    CHECK_FALSE(session.working());
+    CHECK(session.latest()->spp == 1);
+  }
+}
+
+TEST_CASE("generations go on from those of the session before") {
+  Session session(1, 41);
+  CHECK(session.submit(request(mixed_scene(), 1, 16, 9)) == 42);
+  CHECK(wait_complete(session, 42));
+}
+
 TEST_CASE("a budget that is raised goes on with the same film, and one that is lowered completes it") {
   Session session(2);
   const SessionRequest asked = request(mixed_scene(), 3);

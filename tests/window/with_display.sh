@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Runs a command on an X display of its own, and passes on its exit code.
 #   with_display.sh [-s WIDTHxHEIGHT] COMMAND…
-# The command sees the environment as it was, a DISPLAY, and in MEANDER_XVFB_PID the server's process id, for a test
-# that ends it early. Without Xvfb the exit code is 77.
+# The command sees the environment as it was, a DISPLAY, in MEANDER_XVFB_PID the server's process id, for a test that
+# ends it early, and in MEANDER_SCREEN the file in which the server keeps what it shows, in xwd's format. Without Xvfb the exit code is 77.
 set -euo pipefail
 
 own_screen=1920x1200
@@ -25,7 +25,8 @@ finish() {
 trap finish EXIT
 
 # It picks a number that is free and writes it when it listens. It stays as it is when the last window closes.
-Xvfb -displayfd 3 -screen 0 "${own_screen}x24" -nolisten tcp -noreset +extension GLX 3>"$own_folder/number" \
+Xvfb -displayfd 3 -screen 0 "${own_screen}x24" -nolisten tcp -noreset -fbdir "$own_folder" \
+  +extension GLX 3>"$own_folder/number" \
   >"$own_folder/log" 2>&1 &
 own_server=$!
 for ((i = 0; i < 300; i++)); do
@@ -36,5 +37,5 @@ done
 [[ -s $own_folder/number ]] || { cat "$own_folder/log" >&2; printf 'with_display.sh: Xvfb does not start\n' >&2; exit 3; }
 
 own_status=0
-DISPLAY=:$(<"$own_folder/number") MEANDER_XVFB_PID=$own_server "$@" || own_status=$?
+DISPLAY=:$(<"$own_folder/number") MEANDER_XVFB_PID=$own_server MEANDER_SCREEN=$own_folder/Xvfb_screen0 "$@" || own_status=$?
 exit "$own_status"
