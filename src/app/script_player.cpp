@@ -1,11 +1,13 @@
 #include "app/script_player.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace meander {
 
 auto ScriptPlayer::wait_for(bool reached, const ScriptStage& stage, const char* what) const -> Outcome {
-  if (reached) return Outcome::taken;
+  if (reached && frames_since_event_ >= kSettle) return Outcome::taken;
   if (stage.idle && stage.idle() && frames_ > kHopeless) throw Error(Fault::input, what);
   return Outcome::waiting;
 }
@@ -23,6 +25,7 @@ auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, d
       told.y = pointer_[1];
     }
     stage.feed(told);
+    frames_since_event_ = 0;
     return Outcome::taken_frame;
   }
   if (const auto* spp = std::get_if<WaitSppStep>(&step))
@@ -50,6 +53,7 @@ auto ScriptPlayer::play_step(const ScriptStep& step, const ScriptStage& stage, d
 
 void ScriptPlayer::play(const ScriptStage& stage, double now) {
   ++frames_;
+  frames_since_event_ = std::min(frames_since_event_ + 1, kSettle);
   while (!done()) {
     const ScriptLine& line = script_[next_];
     Outcome outcome = Outcome::waiting;

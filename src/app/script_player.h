@@ -30,8 +30,9 @@ class ScriptPlayer {
       : script_(std::move(script)), file_(std::move(file)) {}
 
   /// Plays what this frame may take: any number of edits, but one event, so that the interface sees each; a
-  /// snapshot waits for kSettle frames without another step, so that it shows what went before. `now` in
-  /// seconds. Error (input) with the script's line when an edit is refused, or a wait would never end.
+  /// snapshot waits for kSettle frames without another step, so that it shows what went before, and a wait
+  /// for a picture as long after an event, which the interface may turn into an edit. `now` in seconds. Error
+  /// (input) with the script's line when an edit is refused, or a wait would never end.
   void play(const ScriptStage& stage, double now);
   [[nodiscard]] bool done() const noexcept { return next_ == script_.size(); }
 
@@ -47,6 +48,7 @@ class ScriptPlayer {
   std::string file_;
   std::size_t next_ = 0;
   int frames_ = 0;  // since the last step
+  int frames_since_event_ = kSettle;
   std::optional<double> wait_until_;
   std::array<double, 2> pointer_{};  // where the last move went: buttons and drops are there
 };

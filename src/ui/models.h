@@ -88,8 +88,8 @@ inline constexpr std::array<std::string_view, 6> kCameraViewNames{"front", "back
 
 /// What is rendered and for how long. Zero in a budget is no limit.
 struct RenderModel {
-  int scale = 100;  // percent of the film's size: 100, 50 or 25
-  int film_width = 960;
+  int scale = 100;       // percent of the film's size: 100, 50 or 25
+  int film_width = 960;  // as it is rendered: at that scale
   int film_height = 540;
   int threads = 0;  // 0 is all
   int available_threads = 1;

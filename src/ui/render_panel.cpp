@@ -56,9 +56,8 @@ void render_panel(const Ui& ui, const RenderModel& model) {
   if (const auto picked = segmented(scale, "scale", kScaleNames, static_cast<int>(found - kScales.begin())))
     ui.command(CommandKind::render_scale, kScales[static_cast<std::size_t>(*picked)]);
   const Row size = begin_row("Film", Effect::none);
-  const auto scaled = [&](int n) { return std::to_string(std::max(1, n * model.scale / 100)); };
   draw_text(plain_font(), {size.low.x, size.low.y + 3}, kTextColor,
-            scaled(model.film_width) + " × " + scaled(model.film_height));
+            std::to_string(model.film_width) + " × " + std::to_string(model.film_height));
   end_row(size);
   const std::vector<std::string_view> names(model.estimators.begin(), model.estimators.end());
   const Row estimator =

@@ -91,6 +91,26 @@ TEST_CASE("a snapshot waits for three frames after the step before it") {
   CHECK(witness.told == Told{"set a", "snapshot x.png"});
 }
 
+TEST_CASE("a wait for a picture lets the interface take the click before it") {
+  for (const char* wait : {"wait-image", "wait-spp 4"}) {
+    Witness witness;
+    witness.samples = 16;
+    ScriptPlayer script = player("click 10 10\n" + std::string(wait) + "\nset a\n");
+    const ScriptStage stage = witness.stage();
+    while (witness.events.size() < 3) script.play(stage, 0);
+    script.play(stage, 0);
+    CHECK(witness.told.back() == "event");  // the old picture does not end it
+    witness.image = false;                  // by now the click has changed the scene
+    witness.samples = 0;
+    for (int frame = 0; frame < 9; ++frame) script.play(stage, 0);
+    CHECK(witness.told.back() == "event");
+    witness.image = true;
+    witness.samples = 4;
+    script.play(stage, 0);
+    CHECK(witness.told.back() == "set a");
+  }
+}
+
 TEST_CASE("buttons and drops are where the pointer is") {
   Witness witness;
   ScriptPlayer script = player("click 30 40\ndrag left 1 2 61 82\nmove 7 8\npress right\ndrop a.png\n");
