@@ -309,6 +309,15 @@ void Previewer::carry_out_all(const UiActions& actions) {
     frames_due_ = kSettleFrames;
 }
 
+// Escape is pressed easily: edits that are not saved ask for it twice.
+bool Previewer::may_quit() {
+  const bool asked = now_ - quit_asked_ < kMessageSeconds;
+  if (asked || state_.history.now() == state_.original) return true;
+  quit_asked_ = now_;
+  state_.tell(MessageKind::warning, "there are edits that are not saved: Escape again leaves, Ctrl+S saves");
+  return false;
+}
+
 void Previewer::carry_out(const Command& command) {
   try {
     if (command.kind == CommandKind::quit && state_.look.selecting) {
@@ -320,6 +329,7 @@ void Previewer::carry_out(const Command& command) {
       if (was_closed && ui_.browser != BrowserUse::closed) list_folder_for_browser();
       return;
     }
+    if (command.kind == CommandKind::quit && !may_quit()) return;
     if (command.kind == CommandKind::pause) {
       paused_ = !paused_;
       session_->set_paused(paused_);

@@ -80,6 +80,7 @@ class Previewer {
   void drag_light(const LightDrag& drag);
   void set_gesture(bool on);
   void list_folder_for_browser();
+  [[nodiscard]] bool may_quit();
   void take_drop(const InputEvent& event);
   void carry_out_all(const UiActions& actions);
   [[nodiscard]] PictureArea picture_area() const;
@@ -112,6 +113,7 @@ class Previewer {
   std::optional<double> wheel_end_;  // when a gesture of wheel steps is over
   bool paused_ = false;
   double last_change_ = 0;
+  double quit_asked_ = -1e9;
   double last_watch_ = 0;
   double last_draw_ = -1;
   double now_ = 0;

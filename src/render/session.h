@@ -22,8 +22,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Replaces the job and returns its generation (1, 2, … from the one given). The running pass is stopped, except for the first
-  /// image of a job in its first 60 ms: a stream of submits, however fast, shows images.
+  /// Replaces the job and returns its generation (1, 2, … from the one given). The running pass is stopped,
+  /// except for the first image of a job in its first 60 ms: a stream of submits, however fast, shows images.
   std::uint64_t submit(SessionRequest request);
 
   /// A paused session stops its pass, keeps its film and goes on later. What is submitted meanwhile shows its

@@ -161,8 +161,7 @@ void asked_and_delivered(const Ui& ui, const MaterialModel& model) {
 // The map of the last g and surface, made anew only when nothing is being dragged: it takes milliseconds.
 const ColorMap& color_map(const Ui& ui, const MaterialDescription& now) {
   KeptColorMap& kept = ui.state.color_map;
-  const bool same =
-      kept.g == now.g && kept.surface == now.surface;
+  const bool same = kept.g == now.g && kept.surface == now.surface;
   if (!same && !ImGui::IsAnyItemActive()) kept = {now.g, now.surface, ColorMap(now.g, now.surface)};
   return kept.map;
 }

@@ -45,7 +45,7 @@ void ruler_line(const ImVec2& at, float bar_width, float length, const std::stri
 void ruler(const OverlayModel& model, const Area& image) {
   if (!(model.points_per_mm > 0) || image.width < 200 || image.height < 120) return;
   if (!(model.mean_free_path_mm > 0)) return;  // no medium, no length
-  const std::string free_path = "mean free path " + length_text(model.mean_free_path_mm);
+  const std::string free_path = "mean free path " + length_text(model.mean_free_path_mm) + "  (RGB mean)";
   const std::string diffusion = "diffusion length " + length_text(model.diffusion_length_mm);
   const float words = std::max(text_width(small_font(), free_path), text_width(small_font(), diffusion));
   const auto points = [&](double mm) { return static_cast<float>(std::min(mm * model.points_per_mm, 1e6)); };
@@ -197,10 +197,12 @@ std::string reading(double value, double error) {
 void pixel_tooltip(const PixelReading& pixel, const Area& image) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (!contains(image, mouse.x, mouse.y)) return;
-  const std::array<std::string, 5> lines{
+  const std::array<std::string, 6> lines{
       std::to_string(pixel.x) + ", " + std::to_string(pixel.y) + "   " + count_text(pixel.samples) + " spp",
-      "R  " + reading(pixel.value.x, pixel.error.x), "G  " + reading(pixel.value.y, pixel.error.y),
+      "R  " + reading(pixel.value.x, pixel.error.x),
+      "G  " + reading(pixel.value.y, pixel.error.y),
       "B  " + reading(pixel.value.z, pixel.error.z),
+      "± one standard error",
       significant(pixel.scatterings, 3) + " scatterings · " + length_text(pixel.length_mm)};
   float width = 0;
   for (const std::string& line : lines) width = std::max(width, text_width(small_font(), line));
@@ -211,8 +213,8 @@ void pixel_tooltip(const PixelReading& pixel, const Area& image) {
   low = {std::round(std::max(low.x, image.x)), std::round(std::max(low.y, image.y))};
   background().AddRectFilled(low, {low.x + size.x, low.y + size.y}, IM_COL32(18, 18, 18, 225), 4);
   for (std::size_t i = 0; i < lines.size(); ++i)
-    text(small_font(), {low.x + 8, low.y + 5 + 15 * static_cast<float>(i)}, i == 0 ? kDimColor : kInk,
-         lines[i]);
+    text(small_font(), {low.x + 8, low.y + 5 + 15 * static_cast<float>(i)},
+         i == 0 || i == 4 ? kDimColor : kInk, lines[i]);
 }
 
 }  // namespace

@@ -130,7 +130,6 @@ TEST_CASE("a snapshot brings its parameters back, and comparisons survive when o
   Desk desk(kKnot);
   const SceneDocument first = desk.now();
   desk.carry_out(CommandKind::snapshot);
-  PreviewTools tools = desk.tools();
   desk.carry_out(CommandKind::camera_view, 2);
   desk.render();
   desk.carry_out(CommandKind::snapshot);

@@ -19,7 +19,8 @@ class SceneDump {
       add("orthographic", *scene.camera.orthographic_height);
     else
       add("perspective", scene.camera.vertical_fov);
-    add("film", scene.film.width, scene.film.height, scene.display.exposure, static_cast<int>(scene.display.tone));
+    add("film", scene.film.width, scene.film.height, scene.display.exposure,
+        static_cast<int>(scene.display.tone));
     add("environment", scene.environment.radiance, scene.environment.visible);
     if (scene.environment.image)
       for (int i = 0; i < 40; ++i) {

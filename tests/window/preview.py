@@ -13,6 +13,7 @@ from desktop import ACCENT, ERROR, TOOLBAR, Preview, fail, wait
 
 MEANDER, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 SMALL = ("--spp", 8, "--window", "1280,720")
+MESSAGES = (300, 480, 660, 560)  # the lower middle of the picture
 IMAGE = (200, 100, 800, 420)  # within the picture, above where messages appear
 PANEL = (970, 80, 1270, 690)
 LENGTH = (1050, 214, 1272, 232)  # the row "Mean free path"
@@ -29,6 +30,11 @@ def handle(preview):
     """Where the handle of the length's slider is."""
     places = preview.shot().find(ACCENT, LENGTH)
     return sum(x for x, _ in places) / len(places) if places else None
+
+
+def is_at(preview, place, slack):
+    found = handle(preview)
+    return found is not None and abs(found - place) <= slack
 
 
 def looks_around():
@@ -67,6 +73,8 @@ def looks_around():
     preview.changes(first, IMAGE, 5, "the help lies over the picture")
     preview.key("Escape")
     preview.returns(first, IMAGE, "Escape closes the help, not the window")
+    preview.key("Escape")  # there are unsaved edits: it asks
+    preview.changes(first, MESSAGES, 3, "Escape speaks of the edits that would be lost")
     preview.key("Escape")
     preview.end(0)
 
@@ -79,7 +87,7 @@ def moves_a_slider():
     start = handle(preview)
     y = (LENGTH[1] + LENGTH[3]) // 2
     preview.drag(int(start), y, int(start) - 40, y)
-    wait(lambda: handle(preview) and abs(handle(preview) - (start - 40)) <= 2, "the handle follows the pointer")
+    wait(lambda: is_at(preview, start - 40, 2), "the handle follows the pointer")
     preview.changes(first, IMAGE, 1, "the picture follows the slider")
     preview.key("ctrl+z")
     preview.returns(first, IMAGE, "one undo takes the drag back")
@@ -87,7 +95,7 @@ def moves_a_slider():
     subprocess.run(["xdotool", "keydown", "ctrl", "click", "1", "keyup", "ctrl"], check=True)
     preview.rest()
     preview.key("ctrl+a", "0", "period", "0", "5", "Return")
-    wait(lambda: handle(preview) and abs(handle(preview) - (start - 16)) <= 2, "a typed length moves the handle")
+    wait(lambda: is_at(preview, start - 16, 2), "a typed length moves the handle")
     preview.changes(first, IMAGE, 1, "the picture follows the typed length")
     preview.key("ctrl+s")
     wait(lambda: "radius = [0.05," in pathlib.Path(scene).read_text(), "Ctrl+S saves the length")
@@ -96,7 +104,7 @@ def moves_a_slider():
     preview.returns(first, IMAGE, "undo goes back behind the save")
     wait(lambda: preview.title().startswith("*"), "which is a change again")
     preview.drag(int(start), y, int(start) - 60, y)
-    wait(lambda: handle(preview) and abs(handle(preview) - (start - 60)) <= 2, "another drag")
+    wait(lambda: is_at(preview, start - 60, 2), "another drag")
     preview.move(int(start) + 8, y)
     subprocess.run(["xdotool", "click", "--repeat", "2", "--delay", "60", "1"], check=True)
     preview.rest()
