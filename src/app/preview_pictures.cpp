@@ -170,6 +170,10 @@ void PreviewPictures::draw(const PreviewLook& look, const Display& display, cons
   if (look.comparison == Comparison::none || !show(b_, look.b, look.view)) {
     view_.draw(a_.textures, options, stage);
     if (part_ && part_ != live_ && look.a < 0) draw_part(options, target);
+    if (!prepared_ && live_ && live_->scale == 1) {  // the first picture is there: nobody waits
+      view_.prepare(a_.textures, options);
+      prepared_ = true;
+    }
     return;
   }
   const float line = target.film.x + look.wipe * target.film.width;

@@ -85,6 +85,7 @@ class PreviewPictures {
   std::uint64_t part_version_ = 0;
   std::uint64_t next_version_ = 1;
   double mean_scatterings_ = 0;
+  bool prepared_ = false;  // the driver has met the film's shaders
   std::vector<Snapshot> snapshots_;
 };
 
