@@ -1,4 +1,5 @@
-// The furnace and reciprocity on every closed mesh that the project has (their mean path: mean_path_test).
+// The furnace, reciprocity, scale, rotation and the sum of lights on every closed mesh that the project has
+// (their mean path: mean_path_test).
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -8,6 +9,7 @@
 #include "render/small_scene.h"
 #include "stats/distributions.h"
 #include "stats/hypothesis.h"
+#include "stats/image_error.h"
 
 using namespace meander;
 
@@ -51,7 +53,54 @@ std::pair<double, double> flux_of(const Rendering& rendering, int channel) {
   return {sum, variance};
 }
 
+// The mesh in chromatic, anisotropic matter under two lights, every length times `scale`, all turned about y.
+Scene lit_scene(const std::shared_ptr<const Mesh>& mesh, double scale, double turn) {
+  const Medium medium = medium_from_albedo({0.9, 0.8, 0.99}, DVec3(0.05, 0.1, 0.2) * scale, 0.6);
+  Scene scene = scene_of(mesh, {medium, Boundary::matched, 1, 0}, {0, 0, -1});
+  const DMat3 map = scale * linear_part({{}, {0, turn, 0}, DVec3(1)});
+  scene.camera.look_from = map * scene.camera.look_from;
+  scene.camera.orthographic_height = scale * *scene.camera.orthographic_height;
+  Transform& transform = scene.objects[0].transform;
+  transform = {map * transform.translate, {0, turn, 0}, scale * transform.scale};
+  scene.lights.push_back(
+      {"key", RectangleLight{map * DVec3(2, 3, 1), map * DVec3(0), {0, 1, 0}, scale, scale, Rgb(9)}, false});
+  scene.lights.push_back(
+      {"point", PointLight{map * DVec3(-2, 2, 0), Rgb(static_cast<Real>(5 * scale * scale))}, false});
+  return scene;
+}
+
+Image render_lit(Scene scene, std::uint64_t seed) {
+  Job job = make_job(std::move(scene), 2);
+  job.seed = seed;
+  const Rendering rendering = render_spp(job, 300);
+  CHECK(rendering.counters.leaked_walks == 0);
+  return resolve(rendering.film);
+}
+
 }  // namespace
+
+TEST_CASE("scale and rotation leave the image of every closed mesh, and its lights add up") {
+  for (const auto& mesh : closed_meshes()) {
+    CAPTURE(mesh->triangles.size());
+    const Image here = render_lit(lit_scene(mesh, 1, 0), 0);
+    CHECK(z_test(render_lit(lit_scene(mesh, 1e-3, 0), 1), here).passed);
+    CHECK(z_test(render_lit(lit_scene(mesh, 1e3, 0), 2), here).passed);
+    CHECK(z_test(render_lit(lit_scene(mesh, 1, 77), 3), here).passed);
+    Image sum;
+    for (const int light : {0, 1}) {
+      Scene alone = lit_scene(mesh, 1, 0);
+      alone.lights = {alone.lights[static_cast<std::size_t>(light)]};
+      const Image image = render_lit(std::move(alone), 4 + static_cast<std::uint64_t>(light));
+      if (sum.values.empty()) {
+        sum = image;
+        continue;
+      }
+      CHECK_FALSE(z_test(image, here).passed);  // one light alone is not the whole
+      for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += image.values[i];
+    }
+    CHECK(z_test(sum, here).passed);
+  }
+}
 
 TEST_CASE("every closed mesh vanishes in a furnace, behind every boundary") {
   const TranslucentMaterial surfaces[]{{{}, Boundary::matched, 1, 0},
