@@ -38,6 +38,14 @@ using Level3 = std::array<std::uint8_t, 3>;  // display-encoded
   return oklch_levels(0.20 + 0.75 * s, 0.100 + 0.045 * s, (-60 + 165 * s) * std::numbers::pi / 180);
 }
 
+/// Dark grey at t = 0, orange towards t = 1 and blue towards -1: two straight lines in OKLab, inside the
+/// gamut, whose lightness and chroma depend on |t| alone. Equal steps are equal to the eye, neither sign
+/// outshines the other, and red-green colour blindness keeps the two hues apart.
+[[nodiscard]] inline Level3 diverging_scale(double t) noexcept {
+  const double s = std::clamp(std::abs(t), 0.0, 1.0);
+  return oklch_levels(0.20 + 0.55 * s, 0.13 * s, (t > 0 ? 45 : 245) * std::numbers::pi / 180);
+}
+
 /// Where what cannot be coloured is shown: no sample, no scattering, nothing hit.
 inline constexpr Level3 kNoData{26, 26, 26};
 

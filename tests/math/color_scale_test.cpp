@@ -46,6 +46,24 @@ TEST_CASE("equal steps of the colour scale are equal steps to the eye") {
   CHECK(largest < 1.15 * smallest);
 }
 
+TEST_CASE("the diverging scale gives both signs the same lightness and chroma, in even steps from grey") {
+  const auto grey = diverging_scale(0);
+  CHECK(grey[0] == grey[1]);
+  CHECK(grey[1] == grey[2]);
+  for (int i = 1; i <= 16; ++i) {
+    const auto plus = oklab(diverging_scale(i / 16.0));
+    const auto minus = oklab(diverging_scale(-i / 16.0));
+    for (const auto& lab : {plus, minus}) {
+      CHECK(lab[0] == doctest::Approx(0.20 + 0.55 * i / 16).epsilon(0.01));  // nothing is clipped
+      CHECK(std::hypot(lab[1], lab[2]) == doctest::Approx(0.13 * i / 16).epsilon(0.04).scale(0.1));
+    }
+    CHECK(plus[1] * minus[1] + plus[2] * minus[2] < 0);  // opposite hues
+    CHECK(plus[2] > 0);                                  // orange is the yellow side
+  }
+  CHECK(diverging_scale(3) == diverging_scale(1));
+  CHECK(diverging_scale(-3) == diverging_scale(-1));
+}
+
 TEST_CASE("the colour scale ends where it says, beyond its ends too") {
   CHECK(color_scale(-1) == color_scale(0));
   CHECK(color_scale(2) == color_scale(1));
