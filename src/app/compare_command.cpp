@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/linear_picture.h"
 #include "core/error.h"
 #include "io/image_file.h"
 #include "math/color.h"
@@ -24,38 +25,7 @@ struct CompareOptions {
   bool quiet = false;
 };
 
-constexpr std::array<std::string_view, 6> kChannels{"R", "G", "B", "variance.R", "variance.G", "variance.B"};
 constexpr std::array<std::string_view, 2> kOutputs{".exr", ".png"};
-
-int channel_index(const LoadedImage& loaded, std::string_view name) {
-  const auto found = std::find(loaded.channels.begin(), loaded.channels.end(), name);
-  return found == loaded.channels.end() ? -1 : static_cast<int>(found - loaded.channels.begin());
-}
-
-bool has_variance(const LoadedImage& loaded) {
-  return std::all_of(kChannels.begin() + 3, kChannels.end(),
-                     [&](std::string_view name) { return channel_index(loaded, name) >= 0; });
-}
-
-// R G B in linear light, and the variances where there are any; a single channel counts as grey.
-Image pick_channels(const LoadedImage& loaded, const std::string& path) {
-  const bool grey = loaded.image.channels < 3;
-  const int count = has_variance(loaded) ? 6 : 3;
-  std::array<int, 6> source{};
-  for (int c = 0; c < count; ++c) {
-    source[c] = grey ? 0 : channel_index(loaded, kChannels[c]);
-    if (source[c] < 0)
-      throw Error(Place{path, 0, 0}, "has no channel " + std::string(kChannels[c]) + ", needs R, G and B");
-  }
-  Image picked(loaded.image.width, loaded.image.height, count);
-  for (int y = 0; y < picked.height; ++y)
-    for (int x = 0; x < picked.width; ++x)
-      for (int c = 0; c < count; ++c) {
-        const float value = loaded.image.at(x, y)[source[c]];
-        picked.at(x, y)[c] = loaded.encoded ? static_cast<float>(decode_srgb(Real(value))) : value;
-      }
-  return picked;
-}
 
 std::vector<std::uint8_t> read_mask(const std::string& path, const Image& like) {
   if (path.empty()) return {};
@@ -131,8 +101,8 @@ int run_compare(const CompareOptions& options) {
   if (!options.output.empty()) check_writable(options.output, kOutputs);
   const LoadedImage loaded_a = read_image(options.a);
   const LoadedImage loaded_b = read_image(options.b);
-  const Image a = pick_channels(loaded_a, options.a);
-  const Image b = pick_channels(loaded_b, options.b);
+  const Image a = linear_picture(loaded_a, options.a);
+  const Image b = linear_picture(loaded_b, options.b);
   if (a.width != b.width || a.height != b.height)
     throw Error(Fault::input, "the images differ in size: " + std::to_string(a.width) + "x" +
                                   std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +

@@ -33,12 +33,6 @@ bool hides_lights(const Scene& scene) {
          });
 }
 
-Budget budget_of(const RenderOptions& options) {
-  Budget budget{options.spp, options.seconds, options.error};
-  if (!budget.spp && !budget.seconds && !budget.error) budget.spp = 64;
-  return budget;
-}
-
 std::optional<Tile> crop_of(const RenderOptions& options, const FilmSize& film) {
   if (options.crop.empty()) return std::nullopt;
   const Tile crop{options.crop[0], options.crop[1], options.crop[2], options.crop[3]};
@@ -124,23 +118,33 @@ PreviewSettings preview_settings(const RenderOptions& options) {
   return settings;
 }
 
+Budget budget_of(const RenderOptions& options) {
+  Budget budget{options.spp, options.seconds, options.error};
+  if (!budget.spp && !budget.seconds && !budget.error) budget.spp = 64;
+  return budget;
+}
+
+Job prepare_job(const RenderOptions& options) {
+  SceneFile file = load_scene(options.scene, options.edits);
+  if (!options.quiet)
+    for (const std::string& warning : file.warnings) warn(warning);
+  Job job = make_job(options, std::move(file.scene));
+  check_memory(job);
+  if (options.quiet) return job;
+  for (const std::string& warning : overlap_warnings(*job.scene, *job.geometry)) warn(warning);
+  if (hides_lights(*job.scene))
+    warn(
+        "point and directional lights cannot be seen through a smooth dielectric: give it a roughness, or "
+        "the light a size");
+  return job;
+}
+
 FinishedRun run_render(const RenderOptions& options, std::span<const std::string_view> extensions) {
   constexpr std::string_view kJson[] = {".json"};
   check_writable(options.output, extensions);
   if (!options.stats.empty()) check_writable(options.stats, kJson);
-  SceneFile file = load_scene(options.scene, options.edits);
-  if (!options.quiet)
-    for (const std::string& warning : file.warnings) warn(warning);
   FinishedRun run;
-  run.job = make_job(options, std::move(file.scene));
-  check_memory(run.job);
-  if (!options.quiet) {
-    for (const std::string& warning : overlap_warnings(*run.job.scene, *run.job.geometry)) warn(warning);
-    if (hides_lights(*run.job.scene))
-      warn(
-          "point and directional lights cannot be seen through a smooth dielectric: give it a roughness, or "
-          "the light a size");
-  }
+  run.job = prepare_job(options);
   const std::atomic<bool>& stop = watch_interrupts();
   const Budget budget = budget_of(options);
   ProgressReport progress(budget, options.quiet);

@@ -49,6 +49,13 @@ struct FinishedRun {
   bool interrupted = false;
 };
 
+/// What ends the image: 64 samples a pixel where nothing is said.
+[[nodiscard]] Budget budget_of(const RenderOptions& options);
+
+/// Loads the scene and builds its geometry; says what there is to warn of. Error(input) for anything wrong
+/// with the options or the scene.
+[[nodiscard]] Job prepare_job(const RenderOptions& options);
+
 /// Checks the outputs, loads the scene, renders with progress, and writes --stats. `extensions` are those
 /// that the output may have. Errors: Error(input) for anything wrong with the options or the scene;
 /// Error(runtime) when it was interrupted before the first pass was complete.

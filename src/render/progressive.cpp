@@ -76,12 +76,9 @@ struct Pass {
                                   TileResult& result) const {
     const int image_x = area.x0 + x;
     const int image_y = area.y0 + y;
-    const int stride = scaled(job.scene->film.width, job.scale);
-    const auto index = static_cast<std::uint32_t>(image_y) * static_cast<std::uint32_t>(stride) +
-                       static_cast<std::uint32_t>(image_x);
     if (options.stop->load(std::memory_order_relaxed)) return false;
     for (std::uint64_t k = 0; k < samples; ++k) {
-      Random random = stream(job.seed, index, job.first_sample + static_cast<std::uint32_t>(before.spp + k));
+      Random random = sample_stream(job, image_x, image_y, before.spp + k);
       const double u = random.next();
       const double v = random.next();
       SampleSink sink;
@@ -113,6 +110,17 @@ Ray film_ray(const Job& job, const CameraRays& camera, double x, double y) noexc
   return camera.at(x * job.scale / film.width, y * job.scale / film.height);
 }
 
+Random sample_stream(const Job& job, int x, int y, std::uint64_t k) noexcept {
+  const int stride = scaled(job.scene->film.width, job.scale);
+  const auto index =
+      static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(stride) + static_cast<std::uint32_t>(x);
+  return stream(job.seed, index, job.first_sample + static_cast<std::uint32_t>(k));
+}
+
+PathOptions path_options(const Job& job, const std::atomic<bool>& stop) {
+  return {job.estimator, is_chromatic(*job.scene), &stop};
+}
+
 std::uint64_t film_bytes(const Job& job) {
   const Tile area = area_of(job);
   return 2 * sizeof(Pixel) * static_cast<std::uint64_t>(area.x1 - area.x0) *
@@ -130,7 +138,7 @@ bool Passes::advance(const Rendering& before, std::uint64_t samples, Rendering& 
   const int width = area_.x1 - area_.x0;
   const int height = area_.y1 - area_.y0;
   if (after.film.width != width || after.film.height != height) after.film = Film(width, height);
-  const PathOptions options{job_.estimator, is_chromatic(*job_.scene), &stop_};
+  const PathOptions options = path_options(job_, stop_);
   const Pass pass{job_, camera_, area_, options, samples, before, after.film};
   std::vector<TileResult> results(tiles_.size());
   parallel_for(

@@ -1,0 +1,74 @@
+// What a report holds: plain data between the runs and the files.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/progressive.h"
+#include "stats/debiased_error.h"
+#include "stats/image_error.h"
+
+namespace meander {
+
+/// What was reached at one budget. Seconds are those spent in passes: neither the scene nor the error is in
+/// them.
+struct ReportRow {
+  std::uint64_t spp = 0;
+  double seconds = 0;
+  double noise = 0;  // infinite below two samples a pixel
+  DebiasedError error;
+  ImageError plain;  // nothing subtracted
+  PathCounters counters;
+
+  [[nodiscard]] double efficiency() const noexcept;              // 1 / (mse x seconds); NaN where mse <= 0
+  [[nodiscard]] double seconds_to_one_percent() const noexcept;  // of noise, which falls as the root of time
+};
+
+/// The samples of a run beside the pixels they fall on, see sample_tail.h.
+struct Fireflies {
+  std::uint64_t samples = 0;
+  double quantile = 0;  // the 99.99th percentile
+  double largest = 0;
+};
+
+/// One estimator on one number of threads.
+struct ReportRun {
+  Estimator estimator = Estimator::implicit;
+  std::string walk;  // the model of the scene's walks, in words
+  int threads = 1;
+  std::vector<ReportRow> rows;
+  Image image;                // of the last row, six channels
+  Rendering last;             // without its film
+  std::optional<ZTest> bias;  // none where an image has too few samples, or the reference no variance
+  std::optional<Fireflies> fireflies;  // none where too few samples were traced, or it was interrupted
+};
+
+/// What the runs are held against.
+struct ReportReference {
+  Image image;          // three channels, or six with the variance of each mean
+  std::string source;   // in words
+  Rendering rendering;  // without its film; without samples where it was given
+};
+
+struct Report {
+  Job job;
+  std::vector<std::uint8_t> mask;  // the pixels that the errors are of
+  ReportReference reference;
+  std::vector<ReportRun> runs;
+  double setup_seconds = 0;  // scene and geometry
+  std::string date;          // UTC
+  std::string machine;
+  bool interrupted = false;
+};
+
+[[nodiscard]] std::string_view estimator_name(Estimator estimator) noexcept;
+
+/// The name of a run, and of its image's file: "analog", or "analog-2t" where a report has several thread
+/// counts.
+[[nodiscard]] std::string run_name(const Report& report, const ReportRun& run);
+
+/// Both p-values of the bias test as one: that of the family.
+[[nodiscard]] double bias_p(const ZTest& test) noexcept;
+
+}  // namespace meander

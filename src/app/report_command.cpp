@@ -1,0 +1,133 @@
+// The verb report: error against time.
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "app/command_line.h"
+#include "app/interrupt.h"
+#include "app/render_options.h"
+#include "app/report_files.h"
+#include "app/report_reference.h"
+#include "app/report_run.h"
+#include "core/error.h"
+#include "core/timer.h"
+#include "render/first_hits.h"
+#include "render/parallel.h"
+
+namespace meander {
+namespace {
+
+struct ReportOptions {
+  RenderOptions render;
+  std::vector<std::string> estimators{"implicit", "analog"};
+  std::vector<int> threads;  // empty: those of --threads
+  std::string reference;
+  std::optional<std::uint64_t> reference_spp;
+};
+
+std::string utc_date() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts);
+  return text;
+}
+
+// The processor's name as Linux gives it.
+std::string machine_name() {
+  std::ifstream in("/proc/cpuinfo");
+  std::string name = "unknown processor";
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) {
+      name = line.substr(colon + 2);
+      break;
+    }
+  }
+  return name + ", " + std::to_string(hardware_threads()) + " threads";
+}
+
+template <class T>
+std::vector<T> once_each(const std::vector<T>& values) {
+  std::vector<T> kept;
+  for (const T& value : values)
+    if (std::ranges::find(kept, value) == kept.end()) kept.push_back(value);
+  return kept;
+}
+
+ReportPlan plan_of(const ReportOptions& options, const Job& job) {
+  ReportPlan plan;
+  plan.budget = budget_of(options.render);
+  for (const std::string& name : once_each(options.estimators))
+    plan.estimators.push_back(name == "analog" ? Estimator::analog : Estimator::implicit);
+  plan.threads = options.threads.empty() ? std::vector<int>{job.threads} : once_each(options.threads);
+  plan.quiet = options.render.quiet;
+  for (const int threads : plan.threads)
+    if (threads > hardware_threads())
+      throw Error(Fault::input, "--thread-counts has " + std::to_string(threads) + ", but this machine has " +
+                                    std::to_string(hardware_threads()) + " threads");
+  return plan;
+}
+
+int run_report(const ReportOptions& options) {
+  check_folder(options.render.output);
+  Report report;
+  report.date = utc_date();
+  report.machine = machine_name();
+  const Timer setup;
+  report.job = prepare_job(options.render);
+  report.setup_seconds = setup.seconds();
+  const ReportPlan plan = plan_of(options, report.job);
+  if (!options.reference.empty())
+    report.reference = read_reference(options.reference, report.job, plan.budget);
+  const std::atomic<bool>& stop = watch_interrupts();
+  report.mask = first_hits(report.job, stop).mask;
+  if (options.reference.empty())
+    report.reference =
+        make_reference(report.job, reference_budget(plan.budget, options.reference_spp), plan.quiet, stop);
+  make_runs(report, plan, stop);
+  report.interrupted = stop;
+  if (report.runs.empty())
+    throw Error(Fault::runtime, "interrupted before the first pass was complete; nothing was written");
+  write_report_data(report, options.render.output);
+  std::cout << report_table(report);
+  if (report.interrupted) std::cerr << "meander: interrupted; wrote what was complete\n";
+  return 0;
+}
+
+void change_render_options(CLI::App& verb, RenderOptions& options) {
+  add_render_options(verb, options);
+  verb.get_option("--output")->description("folder to write into; made where there is none");
+  verb.get_option("--spp")->description(
+      "largest number of samples a pixel (64 when neither --time nor --error is given)");
+  verb.get_option("--time")->description("seconds to render for, each run");
+  verb.remove_option(verb.get_option("--estimator"));
+  verb.remove_option(verb.get_option("--stats"));
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, Action& action) {
+  CLI::App* verb =
+      app.add_subcommand("report", "error against time of each estimator: table, CSV, JSON, plot and page");
+  const auto o = std::make_shared<ReportOptions>();
+  change_render_options(*verb, o->render);
+  verb->add_option("--estimators,--estimator", o->estimators, "implicit,analog: those to run (all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"analog", "implicit"}));
+  verb->add_option("--thread-counts", o->threads, "1,2: run with each of these numbers of threads")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* given =
+      verb->add_option("--reference", o->reference, "image to measure the error from (one of its own)");
+  verb->add_option("--reference-spp", o->reference_spp,
+                   "samples a pixel of its own reference (16 times the largest budget)")
+      ->check(CLI::Range(std::uint64_t{2}, std::uint64_t{1} << 31))
+      ->excludes(given);
+  verb->callback([o, &action] { action = [o] { return run_report(*o); }; });
+}
+
+}  // namespace meander

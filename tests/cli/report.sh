@@ -1,0 +1,160 @@
+#!/usr/bin/env bash
+# report.sh MEANDER SOURCE_DIR: what report writes, what it says of a bias, and what it refuses.
+set -euo pipefail
+meander=$1
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+cd "$dir"
+fail() { echo "FAILED: $*"; exit 1; }
+
+cat > ball.toml <<'TOML'
+[camera]
+look_from = [0, 0, 5]
+look_at = [0, 0, 0]
+vertical_fov = 28
+[film]
+width = 24
+height = 24
+[environment]
+radiance = 0.3
+[[light]]
+name = "key"
+type = "rectangle"
+center = [2, 3, 3]
+look_at = [0, 0, 0]
+width = 3
+height = 3
+radiance = 6
+[[material]]
+name = "wax"
+albedo = [0.9, 0.8, 0.7]
+mean_free_path = 0.3
+boundary = "diffuse"
+[[object]]
+name = "ball"
+shape = "sphere"
+material = "wax"
+TOML
+
+"$meander" report ball.toml -o deep/one --spp 64 --thread-counts 1,2 > table.txt 2> messages.txt || fail "report: $(cat messages.txt)"
+for file in report.csv report.json reference.exr implicit-1t.exr implicit-2t.exr analog-1t.exr analog-2t.exr; do
+  [ -s "deep/one/$file" ] || fail "there is no $file"
+done
+[ -z "$(find . -name '*.partial-*')" ] || fail "a partial file is left"
+cmp deep/one/implicit-1t.exr deep/one/implicit-2t.exr || fail "the bytes depend on the threads"
+
+# Each row is what a render of that budget gives; the last one's image shows it.
+"$meander" render ball.toml -o alone.exr --spp 64 --estimator analog --quiet
+"$meander" compare alone.exr deep/one/analog-1t.exr --quiet || fail "the last row is not the render of its budget"
+
+python3 - <<'PY' || fail "the table as CSV and JSON"
+import csv, json, math
+rows = list(csv.DictReader(open('deep/one/report.csv')))
+assert len(rows) == 4 * 7, len(rows)
+report = json.load(open('deep/one/report.json'))
+assert report['reference']['spp'] == 1024 and not report['interrupted'] and report['object_pixels'] > 100
+assert [run['name'] for run in report['runs']] == ['implicit-1t', 'implicit-2t', 'analog-1t', 'analog-2t']
+for run in report['runs']:
+    of_run = [row for row in rows if row['run'] == run['name']]
+    assert [int(row['spp']) for row in of_run] == [1, 2, 4, 8, 16, 32, 64]
+    assert run['threads'] == int(of_run[0]['threads']) and run['walk'].startswith('scalar grey')
+    for row, again in zip(of_run, run['rows']):
+        assert set(again) < set(row) and float(row['error']) == again['error'], (row, again)
+        assert float(row['error_low']) < float(row['error']) < float(row['error_high'])
+        assert float(row['reference_error']) > 0 and row['reference_suffices'] == 'true'
+        # Nothing subtracted, it is larger by the reference's own.
+        whole = float(row['error']) ** 2 + float(row['reference_error']) ** 2
+        assert abs(float(row['relmse']) / whole - 1) < 1e-6, (row['relmse'], whole)
+        assert math.isclose(float(row['efficiency']), 1 / (float(row['error']) ** 2 * float(row['seconds'])), rel_tol=1e-9)
+        assert math.isclose(float(row['walks_per_second']), int(row['walks']) / float(row['seconds']), rel_tol=1e-9)
+    assert of_run[0]['noise'] == '' and run['rows'][0]['noise'] is None
+    assert all(float(a['seconds']) < float(b['seconds']) for a, b in zip(of_run, of_run[1:]))
+    # The error falls as the root of the samples: eight times less at 64, within the scatter of 300 pixels.
+    ratio = float(of_run[0]['error']) / float(of_run[-1]['error'])
+    assert 6 < ratio < 10.7, ratio
+    assert 0.7 < float(of_run[-1]['noise']) / float(of_run[-1]['error']) < 1.4
+    assert run['bias_test'] == 'passed' and of_run[-1]['bias_test'] == 'passed' and of_run[0]['bias_test'] == ''
+    assert run['contribution_p99_99'] is None and run['leaked_walks'] == 0  # too few samples for a tail
+table = open('table.txt').read()
+assert table.count('bias test passed') == 4 and '1024 samples a pixel, seed 1' in table, table
+PY
+
+# The same seed gives the same errors; another does not.
+columns='estimator spp noise error error_low error_high reference_error rmse relmse mean_signed walks steps bias_p'
+same_columns() { python3 -c '
+import csv, sys
+read = lambda name: [[row[c] for c in sys.argv[3].split()] for row in csv.DictReader(open(name + "/report.csv"))]
+sys.exit(read(sys.argv[1]) != read(sys.argv[2]))' "$1" "$2" "$columns"; }
+short=(--spp 16 --estimators implicit --quiet)
+"$meander" report ball.toml -o two "${short[@]}" --threads 1 > /dev/null
+"$meander" report ball.toml -o three "${short[@]}" > /dev/null
+"$meander" report ball.toml -o four "${short[@]}" --seed 5 > /dev/null
+same_columns two three || fail "the same seed gives other errors"
+! same_columns two four || fail "another seed gives the same errors"
+[ -s two/implicit.exr ] && [ ! -e two/analog.exr ] || fail "--estimators is not heeded"
+
+# Enough samples have a tail.
+"$meander" report ball.toml -o tail --spp 512 --reference-spp 64 --estimators implicit --quiet > tail.txt
+python3 - <<'PY' || fail "the tail"
+import json
+(run,) = json.load(open('tail/report.json'))['runs']
+assert run['contribution_samples'] >= 1e5 and 1 < run['contribution_p99_99'] <= run['contribution_largest'], run
+assert run['rows'][-1]['reference_suffices'] is False and '?' in open('tail.txt').read()
+PY
+
+# A reference that is given: its own error is subtracted where it is known.
+"$meander" render ball.toml -o given.exr --spp 256 --seed 9 --quiet
+"$meander" report ball.toml -o given "${short[@]}" --reference given.exr > given.txt
+grep -q 'given.exr, 256 samples' given.txt || fail "the reference is not named"
+python3 -c '
+import struct
+open("plain.pfm", "wb").write(b"PF\n24 24\n-1.0\n" + struct.pack("<f", 0.5) * (24 * 24 * 3))'
+"$meander" report ball.toml -o plain "${short[@]}" --reference plain.pfm > plain.txt
+grep -q 'its own error is unknown' plain.txt || fail "a reference without variance goes unmentioned"
+python3 - <<'PY' || fail "a reference without variance"
+import json
+(run,) = json.load(open('plain/report.json'))['runs']
+assert run['bias_test'] is None and run['rows'][0]['reference_error'] is None, run
+PY
+
+# A reference 3 % brighter than the truth: the bias test must see it.
+"$meander" render ball.toml -o bright.exr --spp 1024 --seed 9 --quiet --set light.key.radiance=6.18 --set environment.radiance=0.309
+"$meander" report ball.toml -o bright --spp 512 --estimators implicit,analog --quiet --reference bright.exr > bright.txt
+[ "$(grep -c 'bias test FAILED' bright.txt)" -eq 2 ] || fail "a bias of 3 % goes unseen: $(cat bright.txt)"
+
+# Bad input: one line, exit code 2, nothing written.
+refuse() {
+  local wanted=$1 status=0 message
+  shift
+  message=$("$meander" "$@" 2>&1 > out.txt) || status=$?
+  [ $status -eq 2 ] || fail "meander $*: exit code $status, not 2: $message"
+  [ "$(printf '%s\n' "$message" | wc -l)" -eq 1 ] || fail "meander $*: not one line: $message"
+  case $message in *"$wanted"*) ;; *) fail "meander $*: says '$message', not '$wanted'" ;; esac
+  [ ! -e bad ] && [ ! -s out.txt ] || fail "meander $*: wrote something"
+}
+report=(report ball.toml -o bad --spp 4)
+refuse 'the reference has 24 x 24 pixels, but the report' "${report[@]}" --reference given.exr --width 32
+refuse 'none.exr' "${report[@]}" --reference none.exr
+refuse 'use another --seed' "${report[@]}" --reference given.exr --seed 9
+refuse 'guided' "${report[@]}" --estimators implicit,guided
+refuse 'this machine has' "${report[@]}" --thread-counts 1,1000
+refuse '--reference-spp' "${report[@]}" --reference given.exr --reference-spp 8
+refuse 'none.toml: cannot open' report none.toml -o bad
+refuse 'it is not a folder' report ball.toml -o ball.toml
+refuse 'is not a folder' report ball.toml -o ball.toml/bad
+refuse 'required' report ball.toml
+
+# An interrupt keeps what is complete.
+"$meander" report ball.toml -o stopped --spp 100000000 --reference given.exr > stopped.txt 2> said.txt &
+process=$!
+sleep 2
+kill -INT $process
+status=0
+wait $process || status=$?
+[ $status -eq 0 ] || fail "an interrupt gives exit code $status: $(cat said.txt)"
+grep -q interrupted said.txt || fail "an interrupt goes unmentioned"
+python3 -c '
+import json
+report = json.load(open("stopped/report.json"))
+assert report["interrupted"] and len(report["runs"]) == 1 and len(report["runs"][0]["rows"]) > 2, report' || fail "an interrupt loses the rows"
+echo "the report keeps its promises"
