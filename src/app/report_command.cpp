@@ -9,10 +9,13 @@
 #include "app/interrupt.h"
 #include "app/render_options.h"
 #include "app/report_files.h"
+#include "app/report_page.h"
 #include "app/report_reference.h"
 #include "app/report_run.h"
+#include "app/report_table.h"
 #include "core/error.h"
 #include "core/timer.h"
+#include "io/output_file.h"
 #include "render/first_hits.h"
 #include "render/parallel.h"
 
@@ -93,7 +96,9 @@ int run_report(const ReportOptions& options) {
   if (report.runs.empty())
     throw Error(Fault::runtime, "interrupted before the first pass was complete; nothing was written");
   write_report_data(report, options.render.output);
-  std::cout << report_table(report);
+  const std::string page = report_page(report, std::nullopt);
+  write_file(options.render.output + "/index.html", std::as_bytes(std::span(page)));
+  std::cout << report_text(report);
   if (report.interrupted) std::cerr << "meander: interrupted; wrote what was complete\n";
   return 0;
 }

@@ -15,9 +15,6 @@ namespace meander {
 /// The same by run, with what the report is of and made by; null where there is no value.
 [[nodiscard]] std::string report_json(const Report& report);
 
-/// The same for the console, in columns.
-[[nodiscard]] std::string report_table(const Report& report);
-
 /// Refuses before long work what writing there would refuse after it: a name that is no folder, or a folder
 /// that cannot be made or written. Leaves nothing behind. Error (input).
 void check_folder(const std::string& folder);

@@ -1,17 +1,11 @@
+#include "app/report_table.h"
+
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "app/report_files.h"
-
 namespace meander {
 namespace {
-
-std::string percent(double fraction) {
-  if (!std::isfinite(fraction)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", 100 * fraction);
-  return text;
-}
 
 std::string number(double value, const char* format = "%.3g") {
   if (!std::isfinite(value)) return "-";
@@ -20,60 +14,102 @@ std::string number(double value, const char* format = "%.3g") {
   return text;
 }
 
-std::string row_line(const std::string& name, const ReportRun& run, const ReportRow& row) {
-  const double seconds = row.seconds;
-  // What is not sure is marked: an error that the reference's own comes near.
-  const bool unsure = row.error.reference_mse && !row.error.reference_suffices();
-  const std::string interval = percent(row.error.rms_low()) + "-" + percent(row.error.rms_high());
-  char text[192];
-  std::snprintf(text, sizeof text, "%-12s %3d %8llu %9s %8s %8s%s %-13s %9s %9s %10s\n", name.c_str(),
-                run.threads, static_cast<unsigned long long>(row.spp), number(seconds, "%.2f").c_str(),
-                percent(row.noise).c_str(), percent(row.error.rms()).c_str(), unsure ? "?" : " ",
-                interval.c_str(), number(static_cast<double>(row.counters.walks) / seconds / 1e6).c_str(),
-                number(static_cast<double>(row.counters.steps) / seconds / 1e6).c_str(),
-                number(row.efficiency()).c_str());
-  return text;
+// Three digits that count, without an exponent.
+std::string percent(double fraction) {
+  return number(100 * fraction, 100 * fraction >= 99.95 ? "%.0f" : "%.3g");
 }
 
-std::string run_lines(const std::string& name, const ReportRun& run) {
-  const ReportRow& last = run.rows.back();
-  std::string text = name + ": ";
-  if (std::isfinite(last.noise))
-    text += "1 % noise after " + number(last.seconds_to_one_percent()) + " s (" +
-            (last.noise <= 0.01 ? "measured" : "extrapolated") + "); ";
-  if (run.bias)
-    text += std::string("bias test ") + (run.bias->passed ? "passed" : "FAILED") + ", p " +
-            number(bias_p(*run.bias)) + "; ";
-  else
-    text += "no bias test; ";
-  if (run.fireflies)
-    text += "one sample in 10 000 is above " + number(run.fireflies->quantile) +
-            " times its pixel's mean, the "
-            "largest of " +
-            number(static_cast<double>(run.fireflies->samples), "%.0f") + " is " +
-            number(run.fireflies->largest) + " times it\n";
-  else
-    text += "too few samples to tell of fireflies\n";
-  return text;
+bool is_unsure(const ReportRow& row) { return row.error.reference_mse && !row.error.reference_suffices(); }
+
+bool any_row(const Report& report, bool (*has)(const ReportRow&)) {
+  return std::ranges::any_of(report.runs,
+                             [&](const ReportRun& run) { return std::ranges::any_of(run.rows, has); });
+}
+
+std::string reference_error(const ReportRow& row) {
+  return row.error.reference_mse ? percent(row.error.reference_rms()) : "-";
+}
+
+std::string bias_text(const ReportRun& run) {
+  if (!run.bias) return "not made";
+  return std::string(run.bias->passed ? "passed" : "FAILED") + ", p " + number(bias_p(*run.bias), "%.2g");
+}
+
+std::string one_percent_text(const ReportRow& last) {
+  if (!std::isfinite(last.noise)) return "-";
+  return number(last.seconds_to_one_percent()) + (last.noise <= 0.01 ? " measured" : " extrapolated");
+}
+
+void append_columns(const TextTable& table, std::string& text) {
+  std::vector<std::size_t> widths;
+  for (const std::string& name : table.header) widths.push_back(name.size());
+  for (const auto& row : table.rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  // Names to the left, figures to the right.
+  const auto line = [&](const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::string fill(widths[i] - cells[i].size(), ' ');
+      text += i == 0 ? cells[i] + fill : "  " + fill + cells[i];
+    }
+    text += '\n';
+  };
+  line(table.header);
+  for (const auto& row : table.rows) line(row);
 }
 
 }  // namespace
 
-std::string report_table(const Report& report) {
-  std::string text = "reference: " + report.reference.source + "\n";
-  char header[192];
-  std::snprintf(header, sizeof header, "%-12s %3s %8s %9s %8s %8s  %-13s %9s %9s %10s\n", "estimator", "thr",
-                "spp", "seconds", "noise %", "error %", "95 %", "Mwalks/s", "Msteps/s", "1/(MSE s)");
-  text += header;
-  bool unsure = false;
+TextTable budget_table(const Report& report) {
+  TextTable table{{"run", "threads", "spp", "seconds", "noise %", "error %", "95 % interval", "reference %",
+                   "Mwalks/s", "Msteps/s", "1/(MSE s)"},
+                  {}};
   for (const ReportRun& run : report.runs) {
     for (const ReportRow& row : run.rows) {
-      text += row_line(std::string(estimator_name(run.estimator)), run, row);
-      unsure |= row.error.reference_mse && !row.error.reference_suffices();
+      table.rows.push_back(
+          {std::string(estimator_name(run.estimator)), std::to_string(run.threads), std::to_string(row.spp),
+           number(row.seconds, "%.2f"), percent(row.noise),
+           percent(row.error.rms()) + (is_unsure(row) ? "?" : ""),
+           percent(row.error.rms_low()) + " - " + percent(row.error.rms_high()), reference_error(row),
+           number(static_cast<double>(row.counters.walks) / row.seconds / 1e6),
+           number(static_cast<double>(row.counters.steps) / row.seconds / 1e6), number(row.efficiency())});
     }
   }
-  if (unsure) text += "?: the reference's own error is above a third of this one\n";
-  for (const ReportRun& run : report.runs) text += run_lines(run_name(report, run), run);
+  return table;
+}
+
+TextTable run_table(const Report& report) {
+  TextTable table{{"run", "threads", "1 % noise after s", "bias test", "99.99 % of samples below", "largest",
+                   "of samples", "walk"},
+                  {}};
+  for (const ReportRun& run : report.runs) {
+    const auto& found = run.fireflies;
+    table.rows.push_back({std::string(estimator_name(run.estimator)), std::to_string(run.threads),
+                          one_percent_text(run.rows.back()), bias_text(run),
+                          found ? number(found->quantile) + " x mean" : "-",
+                          found ? number(found->largest) + " x mean" : "-",
+                          found ? std::to_string(found->samples) : "too few", run.walk});
+  }
+  return table;
+}
+
+std::vector<std::string> report_notes(const Report& report) {
+  std::vector<std::string> notes{"Reference: " + report.reference.source + "."};
+  if (any_row(report, [](const ReportRow& row) { return row.error.reference_mse.has_value(); }))
+    notes.push_back("The reference's own error, a column of the table, is subtracted from the others.");
+  if (any_row(report, is_unsure))
+    notes.push_back(
+        "?: the reference's own error is above a third of this one; --reference-spp makes it smaller.");
+  if (report.interrupted) notes.push_back("Interrupted: this is what was complete.");
+  return notes;
+}
+
+std::string report_text(const Report& report) {
+  std::string text;
+  append_columns(budget_table(report), text);
+  text += '\n';
+  append_columns(run_table(report), text);
+  text += '\n';
+  for (const std::string& note : report_notes(report)) text += note + '\n';
   return text;
 }
 

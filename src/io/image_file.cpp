@@ -60,6 +60,15 @@ Bytes encode(const std::string& path, const OIIO::ImageSpec& spec, const void* p
   return bytes;
 }
 
+Bytes encode_png(const std::string& path, const Image8& frame, const ImageAttributes& attributes) {
+  assert(frame.width > 0 && frame.height > 0);
+  OIIO::ImageSpec spec(frame.width, frame.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  for (const auto& [name, value] : attributes.text) spec.attribute(name, value);
+  for (const auto& [name, value] : attributes.integers) spec.attribute(name, std::to_string(value));
+  return encode(path, spec, frame.rgb.data());
+}
+
 // The formats meander reads, by extension: the library is never let loose on the others it knows.
 std::string reader_for(const std::string& path) {
   using Row = std::pair<std::string_view, std::string_view>;
@@ -191,13 +200,12 @@ void write_exr(const std::string& path, const Image& image, std::span<const std:
   write_file(path, std::as_bytes(std::span(bytes)));
 }
 
+std::vector<unsigned char> png_bytes(const Image8& frame, const ImageAttributes& attributes) {
+  return encode_png("a picture", frame, attributes);
+}
+
 void write_png(const std::string& path, const Image8& frame, const ImageAttributes& attributes) {
-  assert(frame.width > 0 && frame.height > 0);
-  OIIO::ImageSpec spec(frame.width, frame.height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  for (const auto& [name, value] : attributes.text) spec.attribute(name, value);
-  for (const auto& [name, value] : attributes.integers) spec.attribute(name, std::to_string(value));
-  const Bytes bytes = encode(path, spec, frame.rgb.data());
+  const Bytes bytes = encode_png(path, frame, attributes);
   write_file(path, std::as_bytes(std::span(bytes)));
 }
 

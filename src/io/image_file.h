@@ -48,6 +48,9 @@ void write_exr(const std::string& path, const Image& image, std::span<const std:
 /// Writes an 8-bit RGB PNG; all attributes become text. Error (input) as write_file.
 void write_png(const std::string& path, const Image8& frame, const ImageAttributes& attributes);
 
+/// The bytes of that file.
+[[nodiscard]] std::vector<unsigned char> png_bytes(const Image8& frame, const ImageAttributes& attributes);
+
 /// Reads the first picture of a file, row 0 at the top; its extension decides the format. Error (input) of
 /// one line when it cannot be read whole or is larger than 2^30 pixels.
 [[nodiscard]] LoadedImage read_image(const std::string& path);
