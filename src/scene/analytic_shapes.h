@@ -50,9 +50,12 @@ struct UnitSphere {
     const T far = std::max(outer, inner);
     return Interval<T>{near, far, o + near * d, o + far * d};
   }
+  /// A line so near the rim that rounding makes it miss goes from a point of the surface along the chord, if
+  /// it goes in.
   [[nodiscard]] static Exit exit(const Vec3& o, const Vec3& d) noexcept {
-    const auto interval = inside(o, d);
-    return interval ? Exit{interval->far, interval->far_gradient} : Exit{0, o};
+    if (const auto interval = inside(o, d)) return {interval->far, interval->far_gradient};
+    const Real chord = std::max(-2 * glm::dot(o, d) / glm::dot(d, d), Real(0));
+    return {chord, o + chord * d};
   }
   [[nodiscard]] static Vec3 snap(const Vec3& p, const Vec3&) noexcept { return glm::normalize(p); }
 };

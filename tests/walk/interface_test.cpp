@@ -95,3 +95,15 @@ TEST_CASE("light that total reflection leads into the edge of a turned box comes
     CHECK(way > 1);
   }
 }
+
+TEST_CASE("light that skims a sphere, however rounding falls, goes on along it") {
+  const SphereBody sphere{DMat3(1)};
+  for (std::uint32_t i = 0; i < 200000; ++i) {
+    Random random = stream(4, 0, i);
+    const Vec2 u{random.next(), random.next()};
+    const Vec3 normal = sample_sphere(u);
+    const Vec3 position = sphere.snap(normal, normal);
+    const Vec3 direction = lift_off(make_frame(normal).tangent, -normal);
+    REQUIRE(sphere.first_crossing(position, direction, Real(1e9)).distance > kLeastCosine / 2);
+  }
+}
