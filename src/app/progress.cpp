@@ -5,46 +5,92 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string>
 
 namespace meander {
+namespace {
+
+std::string text(const char* format, double value) {
+  char buffer[48];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+std::string percent_text(double noise) { return text("%.3g %%", 100 * noise); }
+
+std::string seconds_text(double seconds) {
+  if (seconds < 600) return text("%.1f s", seconds);
+  if (seconds < 3600 * 10) return text("%.0f min", seconds / 60);
+  return text("%.3g h", seconds / 3600);
+}
+
+// The part of the budget that is done, 0 to 1.
+double fraction(const Progress& progress, const Budget& budget) {
+  const double left = forecast(progress, budget).seconds;
+  if (!std::isfinite(left)) return 0;
+  const double all = progress.seconds + left;
+  return all > 0 ? std::clamp(progress.seconds / all, 0.0, 1.0) : 1.0;
+}
+
+}  // namespace
+
+const char* ending_name(Ending ending) noexcept {
+  switch (ending) {
+    case Ending::spp:
+      return "spp";
+    case Ending::seconds:
+      return "time";
+    case Ending::error:
+      return "error";
+    case Ending::none:
+      break;
+  }
+  return "interrupt";
+}
+
+std::string progress_line(const Progress& progress, const Budget& budget) {
+  char line[96];
+  std::snprintf(line, sizeof line, "%5.1f %%  %llu spp  noise ", 100 * fraction(progress, budget),
+                static_cast<unsigned long long>(progress.spp));
+  std::string result = line;
+  result += std::isfinite(progress.noise) ? text("%.2f %%", 100 * progress.noise) : "?";
+  if (std::isfinite(progress.noise) && !progress.reliable) result += " (unreliable)";
+  result += text("  %.1f s", progress.seconds);
+  const Forecast end = forecast(progress, budget);
+  if (end.ending == Ending::none) return result;
+  result += "  " + seconds_text(end.seconds) + " to go (" + ending_name(end.ending) + ")";
+  if (std::isfinite(end.noise) && end.noise > 0) result += ", " + text("%.2f %%", 100 * end.noise) + " then";
+  return result;
+}
+
+std::string closing_line(const Progress& progress, const Budget& budget) {
+  if (!budget.error || !std::isfinite(progress.noise)) return "";
+  const Ending ending = ended_by(progress, budget);
+  std::string line = "reached " + percent_text(progress.noise) + " in " + seconds_text(progress.seconds) +
+                     " (" + ending_name(ending) + ")";
+  if (ending == Ending::error || progress.noise <= *budget.error) return line;
+  if (const auto more = seconds_to_error(progress, *budget.error))
+    line += "; " + percent_text(*budget.error) + " would take " + (progress.reliable ? "" : "at least ") +
+            seconds_text(*more) + " more";
+  return line;
+}
 
 ProgressReport::ProgressReport(const Budget& budget, bool quiet)
     : budget_(budget), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
-double ProgressReport::fraction(const Rendering& rendering) const {
-  double part = 0;
-  if (budget_.spp)
-    part = std::max(part, static_cast<double>(rendering.spp) / static_cast<double>(*budget_.spp));
-  if (budget_.seconds) part = std::max(part, rendering.seconds / *budget_.seconds);
-  // Noise falls as the root of the samples.
-  if (budget_.error && rendering.noise > 0)
-    part = std::max(part, *budget_.error * *budget_.error / (rendering.noise * rendering.noise));
-  return std::clamp(part, 0.0, 1.0);
-}
-
 void ProgressReport::show(const Rendering& rendering) {
   if (quiet_) return;
   if (!terminal_ && rendering.seconds < next_line_) return;
-  const double part = fraction(rendering);
-  std::string noise = "?";
-  if (std::isfinite(rendering.noise)) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f", 100 * rendering.noise);
-    noise = text;
-  }
-  char line[128];
-  std::snprintf(line, sizeof line, "%5.1f %%  %llu spp  noise %s %%  %.1f s", 100 * part,
-                static_cast<unsigned long long>(rendering.spp), noise.c_str(), rendering.seconds);
+  const Progress progress = progress_of(rendering);
+  const std::string line = progress_line(progress, budget_);
   if (!terminal_) {
-    std::fprintf(stderr, "%s\n", line);
+    std::fprintf(stderr, "%s\n", line.c_str());
     next_line_ = rendering.seconds + 5;
     return;
   }
-  constexpr int kCells = 32;
-  const int filled = static_cast<int>(part * kCells);
+  constexpr int kCells = 20;
+  const int filled = static_cast<int>(fraction(progress, budget_) * kCells);
   const std::string bar = std::string(filled, '#') + std::string(kCells - filled, '.');
-  std::fprintf(stderr, "\r[%s] %s\x1b[K", bar.c_str(), line);
+  std::fprintf(stderr, "\r[%s] %s\x1b[K", bar.c_str(), line.c_str());
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -1,10 +1,23 @@
 // How far the work is: a bar on a terminal, plain lines otherwise.
 #pragma once
 
+#include <string>
+
 #include "film/plan.h"
 #include "render/progressive.h"
 
 namespace meander {
+
+/// What is done and what is to come: " 42.0 %  128 spp  noise 1.92 %  7.1 s  22.9 s to go (time), 0.94 %
+/// then".
+[[nodiscard]] std::string progress_line(const Progress& progress, const Budget& budget);
+
+/// What was reached of a budget: "reached 1.30 % in 30.0 s (time); 1 % would take 20.7 s more". "" for a
+/// budget without error.
+[[nodiscard]] std::string closing_line(const Progress& progress, const Budget& budget);
+
+/// "spp", "time", "error", or "interrupt" when the budget was not met.
+[[nodiscard]] const char* ending_name(Ending ending) noexcept;
 
 class ProgressReport {
  public:
@@ -16,8 +29,6 @@ class ProgressReport {
   void finish();
 
  private:
-  [[nodiscard]] double fraction(const Rendering& rendering) const;
-
   Budget budget_;
   bool quiet_;
   bool terminal_;

@@ -146,10 +146,10 @@ FinishedRun run_render(const RenderOptions& options, std::span<const std::string
   FinishedRun run;
   run.job = prepare_job(options);
   const std::atomic<bool>& stop = watch_interrupts();
-  const Budget budget = budget_of(options);
-  ProgressReport progress(budget, options.quiet);
+  run.budget = budget_of(options);
+  ProgressReport progress(run.budget, options.quiet);
   run.rendering =
-      render(run.job, budget, stop, [&](const Rendering& rendering) { progress.show(rendering); });
+      render(run.job, run.budget, stop, [&](const Rendering& rendering) { progress.show(rendering); });
   progress.finish();
   run.interrupted = stop;
   if (run.rendering.spp == 0)
@@ -160,7 +160,7 @@ FinishedRun run_render(const RenderOptions& options, std::span<const std::string
 void print_summary(const RenderOptions& options, const FinishedRun& run) {
   const Rendering& r = run.rendering;
   if (!options.stats.empty()) {
-    const std::string json = stats_json(run.job, r);
+    const std::string json = stats_json(run.job, r, ending_name(ended_by(progress_of(r), run.budget)));
     write_file(options.stats, std::as_bytes(std::span(json)));
   }
   if (run.interrupted)
@@ -168,8 +168,11 @@ void print_summary(const RenderOptions& options, const FinishedRun& run) {
                  static_cast<unsigned long long>(r.spp));
   if (options.quiet) return;
   std::fprintf(stderr, "%s: %llu spp in %.2f s, noise %.2f %%, %.3g steps/s\n", options.output.c_str(),
-               static_cast<unsigned long long>(r.spp), r.seconds, 100 * r.noise,
+               static_cast<unsigned long long>(r.spp), r.seconds, 100 * r.noise.noise,
                static_cast<double>(r.counters.steps) / r.seconds);
+  const std::string reached = closing_line(progress_of(r), run.budget);
+  if (!reached.empty()) std::fprintf(stderr, "%s\n", reached.c_str());
+  if (!r.noise.reliable()) std::fprintf(stderr, "the noise is unreliable: %s\n", describe(r.noise.doubt));
   if (r.counters.leaked_walks > 0)
     std::fprintf(stderr, "meander: warning: %llu of %llu walks leaked through holes in a mesh\n",
                  static_cast<unsigned long long>(r.counters.leaked_walks),

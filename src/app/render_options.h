@@ -45,6 +45,7 @@ void add_render_options(CLI::App& verb, RenderOptions& options);
 
 struct FinishedRun {
   Job job;
+  Budget budget;
   Rendering rendering;
   bool interrupted = false;
 };
@@ -62,7 +63,7 @@ struct FinishedRun {
 [[nodiscard]] FinishedRun run_render(const RenderOptions& options,
                                      std::span<const std::string_view> extensions);
 
-/// The closing line of a run: what was written, and what it reached.
+/// The closing lines of a run: what was written, what it reached of its budget, and what to doubt.
 void print_summary(const RenderOptions& options, const FinishedRun& run);
 
 }  // namespace meander

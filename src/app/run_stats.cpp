@@ -24,7 +24,7 @@ nlohmann::ordered_json finite(double value) {
 
 std::string version_text() { return MEANDER_VERSION; }
 
-std::string stats_json(const Job& job, const Rendering& rendering) {
+std::string stats_json(const Job& job, const Rendering& rendering, const char* ended_by) {
   const PathCounters& counters = rendering.counters;
   nlohmann::ordered_json stats;
   stats["version"] = version_text();
@@ -37,13 +37,16 @@ std::string stats_json(const Job& job, const Rendering& rendering) {
   stats["height"] = rendering.film.height;
   stats["spp"] = rendering.spp;
   stats["seconds"] = rendering.seconds;
+  stats["ended_by"] = ended_by;
   stats["walks"] = counters.walks;
   stats["steps"] = counters.steps;
   stats["rays"] = counters.rays;
   stats["walks_per_second"] = finite(static_cast<double>(counters.walks) / rendering.seconds);
   stats["steps_per_second"] = finite(static_cast<double>(counters.steps) / rendering.seconds);
   stats["mean"] = mean_of(rendering.film);
-  stats["relative_noise"] = finite(rendering.noise);
+  stats["relative_noise"] = finite(rendering.noise.noise);
+  stats["noise_standard_error"] = finite(rendering.noise.standard_error);
+  stats["noise_reliable"] = rendering.noise.reliable();
   stats["leaked_walks"] = counters.leaked_walks;
   stats["non_finite"] = rendering.non_finite;
   stats["peak_memory_bytes"] = peak_memory_bytes();

@@ -10,8 +10,9 @@ namespace meander {
 
 [[nodiscard]] std::string version_text();
 
-/// The JSON text of --stats, keys as the command line's contract lists them.
-[[nodiscard]] std::string stats_json(const Job& job, const Rendering& rendering);
+/// The JSON text of --stats, keys as the command line's contract lists them; `ended_by` is the value of that
+/// key.
+[[nodiscard]] std::string stats_json(const Job& job, const Rendering& rendering, const char* ended_by);
 
 /// scene, seed, spp, first sample and version.
 [[nodiscard]] ImageAttributes image_attributes(const Job& job, const Rendering& rendering);

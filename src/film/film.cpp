@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <limits>
 
 namespace meander {
 
@@ -59,22 +57,6 @@ FilmPlanes resolve_planes(const Film& film, const Image* normals) {
   FilmPlanes planes{{film.width, film.height, 4}, {film.width, film.height, 4}, {film.width, film.height, 4}};
   for (int y = 0; y < film.height; ++y) resolve_row(film, normals, y, planes);
   return planes;
-}
-
-double relative_noise(const Film& film, const std::vector<std::uint8_t>& mask) {
-  assert(mask.empty() || mask.size() == film.pixels.size());
-  const bool every = std::all_of(mask.begin(), mask.end(), [](std::uint8_t m) { return m == 0; });
-  double sum = 0;
-  std::uint64_t terms = 0;
-  for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-    if (!every && mask[i] == 0) continue;
-    const Pixel& pixel = film.pixels[i];
-    if (pixel.count < 2) return std::numeric_limits<double>::infinity();
-    const std::array<double, 3> variance = pixel.variance_of_mean();
-    for (int c = 0; c < 3; ++c) sum += variance[c] / (pixel.mean[c] * pixel.mean[c] + 1e-4);
-    terms += 3;
-  }
-  return terms == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(terms));
 }
 
 std::array<double, 3> mean_of(const Film& film) {

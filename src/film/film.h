@@ -61,11 +61,6 @@ struct Film {
 /// Row y of resolve_planes, into planes of the film's size. Rows may be resolved at the same time.
 void resolve_row(const Film& film, const Image* normals, int y, FilmPlanes& planes) noexcept;
 
-/// sqrt(mean over channels and masked pixels of v / (m^2 + 1e-4)), v the variance of the pixel's mean m.
-/// `mask` has one entry a pixel, non-zero where it counts; an empty or all-zero mask counts every pixel.
-/// Infinite while any counted pixel has fewer than two samples.
-[[nodiscard]] double relative_noise(const Film& film, const std::vector<std::uint8_t>& mask);
-
 /// Mean over all pixels, per channel.
 [[nodiscard]] std::array<double, 3> mean_of(const Film& film);
 

@@ -36,9 +36,10 @@ struct LiveFrame {
   int film_width = 0;
   int film_height = 0;
   FilmPlanes planes;
-  std::uint64_t spp = 0;         // 1 for a coarse image
-  double seconds = 0;            // spent tracing this image; pauses and coarser images do not count
-  double noise = 0;              // relative noise, see film.h; infinite below two samples
+  std::uint64_t spp = 0;  // 1 for a coarse image
+  double seconds = 0;     // spent tracing this image; pauses and coarser images do not count
+  double noise = 0;       // relative noise, see film/noise.h; infinite below two samples
+  bool noise_reliable = true;
   PathCounters counters;         // of this image
   std::uint64_t non_finite = 0;  // samples that were not finite, taken as black
   std::vector<NoisePoint>

@@ -131,8 +131,7 @@ void LiveImage::refine() {
 
 std::uint64_t LiveImage::next_samples() const noexcept {
   if (!done_) return next_pass({}, request_.budget);
-  return next_pass({done_->spp, done_->seconds, done_->noise}, request_.budget,
-                   longest_live_pass(done_->seconds));
+  return next_pass(progress_of(*done_), request_.budget, longest_live_pass(done_->seconds));
 }
 
 bool LiveImage::find_first_hits(const std::atomic<bool>& stop) {
@@ -155,16 +154,17 @@ std::shared_ptr<LiveFrame> LiveImage::render_pass(const std::atomic<bool>& stop)
     const std::shared_ptr<Rendering> next = stock_.films.take();
     const Rendering& before = done_ ? *done_ : nothing;
     if (!Passes(job_, stop).advance(before, samples, *next)) return nullptr;
-    next->noise = relative_noise(next->film, stock_.hits->mask);
+    next->noise = estimate_noise(next->film, stock_.hits->mask);
     next->seconds = before.seconds + timer.seconds();
     done_ = next;
-    if (done_->spp > 1) history_.push_back({done_->seconds, done_->spp, done_->noise});
+    if (done_->spp > 1) history_.push_back({done_->seconds, done_->spp, done_->noise.noise});
   }
   if (!done_) return nullptr;
   const std::shared_ptr<LiveFrame> frame = stock_.frames.take();
   if (!resolve(job_, *done_, stock_.hits->normals, *frame, stop)) return nullptr;
   frame->seconds = done_->seconds;
-  frame->noise = done_->noise;
+  frame->noise = done_->noise.noise;
+  frame->noise_reliable = done_->noise.reliable();
   frame->history = history_;
   frame->complete = next_samples() == 0;
   shown_complete_ = frame->complete;

@@ -165,11 +165,11 @@ Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& 
   Rendering next = done;
   const Timer timer;
   for (;;) {
-    const std::uint64_t samples = next_pass({done.spp, done.seconds, done.noise}, budget);
+    const std::uint64_t samples = next_pass(progress_of(done), budget);
     if (samples == 0 || stop || !passes.advance(done, samples, next)) return done;
     std::swap(done, next);
     done.seconds = timer.seconds();
-    done.noise = relative_noise(done.film, mask);
+    done.noise = estimate_noise(done.film, mask);
     published(done);
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "film/film.h"
+#include "film/noise.h"
 #include "film/plan.h"
 #include "film/tiles.h"
 #include "render/parallel.h"
@@ -34,10 +35,15 @@ struct Rendering {
   Film film;  // of the size of the job's area
   std::uint64_t spp = 0;
   double seconds = 0;
-  double noise = 0;  // relative noise over the object's pixels, see film.h
+  NoiseEstimate noise;  // over the object's pixels
   PathCounters counters;
   std::uint64_t non_finite = 0;  // samples that were not finite, taken as black
 };
+
+/// What a plan asks of a rendering.
+[[nodiscard]] inline Progress progress_of(const Rendering& rendering) noexcept {
+  return {rendering.spp, rendering.seconds, rendering.noise.noise, rendering.noise.reliable()};
+}
 
 /// The rectangle that the job renders, in its own pixels; at a scale, the pixels that the crop touches.
 [[nodiscard]] Tile area_of(const Job& job) noexcept;

@@ -22,6 +22,13 @@ struct Interval {
   glm::vec<3, T> far_gradient;
 };
 
+/// Where a line leaves a shape, for a point inside: the distance, and the outward gradient there (not
+/// normalised). A point that rounding put just outside has left already: the distance is then 0 or less.
+struct Exit {
+  Real far;
+  Vec3 gradient;
+};
+
 /// Unit sphere at the origin.
 struct UnitSphere {
   /// Roots by the product rule, so that neither loses digits to cancellation; the discriminant from the
@@ -42,6 +49,13 @@ struct UnitSphere {
     const T near = std::min(outer, inner);
     const T far = std::max(outer, inner);
     return Interval<T>{near, far, o + near * d, o + far * d};
+  }
+  /// A line so near the rim that rounding makes it miss goes from a point of the surface along the chord, if
+  /// it goes in.
+  [[nodiscard]] static Exit exit(const Vec3& o, const Vec3& d) noexcept {
+    if (const auto interval = inside(o, d)) return {interval->far, interval->far_gradient};
+    const Real chord = std::max(-2 * glm::dot(o, d) / glm::dot(d, d), Real(0));
+    return {chord, o + chord * d};
   }
   [[nodiscard]] static Vec3 snap(const Vec3& p, const Vec3&) noexcept { return glm::normalize(p); }
 };
@@ -92,6 +106,14 @@ struct UnitBox {
       if (!detail::clip_to_slab(interval, o, d, axis)) return std::nullopt;
     return interval;
   }
+  /// The first face ahead, whichever faces the line has yet to come in by: from a point that is outside of
+  /// two of them by rounding the line may miss the box, and leaves by a face that it travels toward all the
+  /// same.
+  [[nodiscard]] static Exit exit(const Vec3& o, const Vec3& d) noexcept {
+    Interval<Real> interval = detail::whole_line<Real>();
+    for (int axis = 0; axis < 3; ++axis) (void)detail::clip_to_slab(interval, o, d, axis);
+    return {interval.far, interval.far_gradient};
+  }
   [[nodiscard]] static Vec3 snap(const Vec3& p, const Vec3& gradient) noexcept {
     return detail::snap_to_face(p, gradient);
   }
@@ -105,6 +127,11 @@ struct UnitSlab {
     Interval<T> interval = detail::whole_line<T>();
     if (!detail::clip_to_slab(interval, o, d, 1)) return std::nullopt;
     return interval;
+  }
+  [[nodiscard]] static Exit exit(const Vec3& o, const Vec3& d) noexcept {
+    Interval<Real> interval = detail::whole_line<Real>();
+    (void)detail::clip_to_slab(interval, o, d, 1);
+    return {interval.far, interval.far_gradient};
   }
   [[nodiscard]] static Vec3 snap(const Vec3& p, const Vec3& gradient) noexcept {
     return detail::snap_to_face(p, gradient);
@@ -146,13 +173,12 @@ struct AffineShape {
   /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. A
   /// point that rounding put just outside leaves at once; nothing leaks.
   [[nodiscard]] Crossing first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
-    const auto interval = inside(p, d);
-    const Real far = interval ? std::max(interval->far, Real(0)) : Real(0);
+    const Exit exit = Unit::exit(to_unit * p, to_unit * d);
+    const Real far = std::max(exit.far, Real(0));
     if (distance < far) return {CrossingKind::none, distance, p + distance * d, {}, {}};
     if (far == std::numeric_limits<Real>::infinity()) return {CrossingKind::leaked, far, p, {}, {}};
-    const Vec3 gradient = interval ? interval->far_gradient : to_unit * p;
-    const Vec3 normal = normal_from(gradient);
-    return {CrossingKind::exit, far, interval ? snap(p + far * d, gradient) : p, normal, normal};
+    const Vec3 normal = normal_from(exit.gradient);
+    return {CrossingKind::exit, far, snap(p + far * d, exit.gradient), normal, normal};
   }
 };
 

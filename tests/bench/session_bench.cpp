@@ -142,7 +142,7 @@ void measure_coarse(const Scene& scene) {
     const Rendering rendering = render(job, {spp, {}, {}}, stop, [](const Rendering&) {});
     const double samples = static_cast<double>(spp);
     std::printf("\"scale_%d\": {\"noise_1spp\": %.3f, \"ms_per_spp\": %.2f},\n", scale,
-                rendering.noise * std::sqrt(samples), 1e3 * rendering.seconds / samples);
+                rendering.noise.noise * std::sqrt(samples), 1e3 * rendering.seconds / samples);
   }
 }
 

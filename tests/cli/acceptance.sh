@@ -13,7 +13,7 @@ python3 - <<'PY' || fail "the statistics of the furnace"
 import json
 s = json.load(open('f.json'))
 keys = '''version scene seed first_sample threads isa width height spp seconds walks steps rays walks_per_second
-steps_per_second mean relative_noise leaked_walks non_finite peak_memory_bytes model estimator'''.split()
+steps_per_second mean relative_noise noise_standard_error noise_reliable ended_by leaked_walks non_finite peak_memory_bytes model estimator'''.split()
 assert sorted(s) == sorted(keys), sorted(s)
 assert s['spp'] == 4 and s['leaked_walks'] == 0 and s['non_finite'] == 0 and s['steps'] > s['walks'] > 0, s
 assert all(abs(m - 1) < 1e-6 for m in s['mean']), s['mean']

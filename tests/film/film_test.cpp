@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "math/random.h"
@@ -83,29 +82,6 @@ TEST_CASE("a resolved film is its means and their variances, pixel by pixel") {
   CHECK(image.at(1, 0)[0] == 0.5f);
   CHECK(image.at(1, 0)[3] == 0);
   CHECK(image.at(0, 0)[0] == 0);
-}
-
-TEST_CASE("relative noise is the documented root mean over channels and masked pixels") {
-  Film film(2, 1);
-  film.at(0, 0) = make_pixel({Rgb(1, 0, 2), Rgb(3, 0, 2)});    // means 2, 0, 2; variances 1, 0, 0
-  film.at(1, 0) = make_pixel({Rgb(-1, 4, 4), Rgb(1, 6, 12)});  // means 0, 5, 8; variances 1, 1, 16
-  const double left = 1 / (4 + 1e-4);
-  const double right = 1 / 1e-4 + 1 / (25 + 1e-4) + 16 / (64 + 1e-4);
-  const double both = std::sqrt((left + right) / 6);
-  CHECK(relative_noise(film, {1, 0}) == doctest::Approx(std::sqrt(left / 3)).epsilon(1e-13));
-  CHECK(relative_noise(film, {0, 255}) == doctest::Approx(std::sqrt(right / 3)).epsilon(1e-13));
-  CHECK(relative_noise(film, {1, 1}) == doctest::Approx(both).epsilon(1e-13));
-  CHECK(relative_noise(film, {}) == doctest::Approx(both).epsilon(1e-13));
-  CHECK(relative_noise(film, {0, 0}) == doctest::Approx(both).epsilon(1e-13));
-}
-
-TEST_CASE("relative noise is infinite while a counted pixel has fewer than two samples, and only then") {
-  Film film(2, 1);
-  CHECK(relative_noise(film, {}) == std::numeric_limits<double>::infinity());
-  film.at(0, 0) = make_pixel({Rgb(1), Rgb(1)});
-  film.at(1, 0) = make_pixel({Rgb(1)});
-  CHECK(relative_noise(film, {1, 1}) == std::numeric_limits<double>::infinity());
-  CHECK(relative_noise(film, {1, 0}) == 0);
 }
 
 TEST_CASE("the mean of a film weighs pixels equally, whatever their counts") {

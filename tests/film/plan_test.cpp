@@ -116,15 +116,15 @@ TEST_CASE("a pass takes no more samples than the noise still calls for") {
   CHECK(next_pass({64, 0.01, 0.1}, error(0.1)) == 0);
 }
 
-TEST_CASE("noise is not believed before 8 samples") {
-  CHECK(next_pass({4, 0.01, 0}, error(0.1)) == 4);
-  CHECK(next_pass({6, 0.01, 0}, error(0.1)) == 2);
-  CHECK(next_pass({7, 0.01, 0.09}, error(0.1)) == 1);
-  CHECK(next_pass({8, 0.01, 0}, error(0.1)) == 0);
+TEST_CASE("noise is not believed before 16 samples") {
+  CHECK(next_pass({8, 0.01, 0}, error(0.1)) == 8);
+  CHECK(next_pass({14, 0.01, 0}, error(0.1)) == 2);
+  CHECK(next_pass({15, 0.01, 0.09}, error(0.1)) == 1);
+  CHECK(next_pass({16, 0.01, 0}, error(0.1)) == 0);
   Run constant;
   constant.noise = 0;
   constant.go(error(0.01));
-  CHECK(constant.progress.spp == 8);
+  CHECK(constant.progress.spp == 16);
 }
 
 TEST_CASE("of several budgets the first that is met ends the image") {
@@ -136,6 +136,73 @@ TEST_CASE("of several budgets the first that is met ends the image") {
   CHECK(next_pass(progress, Budget{19, 100.0, 0.001}) == 3);
   CHECK(next_pass(progress, Budget{1000, 1.8, 0.001}) == 2);
   CHECK(next_pass(progress, Budget{1000, 100.0, 0.049}) == 1);
+}
+
+TEST_CASE("an unreliable noise ends the image at half the error, and a reliable one at once") {
+  CHECK(next_pass({64, 0.01, 0.09, false}, error(0.1)) == 64);
+  CHECK(next_pass({64, 0.01, 0.06, false}, error(0.1)) == 29);  // 64 (0.06/0.05)^2 = 92.2
+  CHECK(next_pass({64, 0.01, 0.05, false}, error(0.1)) == 0);
+  CHECK(next_pass({64, 0.01, 0.09, true}, error(0.1)) == 0);
+  // Above the error the pass goes to the error first: it may be reliable there.
+  CHECK(next_pass({64, 0.01, 0.11, false}, error(0.1)) == 14);
+  CHECK(next_pass({64, 0.01, 0.09, false}, Budget{64, {}, 0.1}) == 0);
+}
+
+TEST_CASE("what ended an image") {
+  CHECK(ended_by({64, 1, 0.05}, spp(64)) == Ending::spp);
+  CHECK(ended_by({64, 1, 0.05}, spp(65)) == Ending::none);
+  CHECK(ended_by({64, 1, 0.05}, seconds(1)) == Ending::seconds);
+  CHECK(ended_by({64, 1, 0.05}, seconds(1.007)) == Ending::seconds);  // under half a sample is left
+  CHECK(ended_by({64, 1, 0.05}, seconds(1.01)) == Ending::none);
+  CHECK(ended_by({64, 1, 0.05}, error(0.05)) == Ending::error);
+  CHECK(ended_by({64, 1, 0.05, false}, error(0.05)) == Ending::none);
+  CHECK(ended_by({64, 1, 0.05}, {64, 1.0, 0.05}) == Ending::error);
+  CHECK(ended_by({64, 1, 0.05}, {}) == Ending::none);
+}
+
+TEST_CASE("the forecast names the budget that is met first, when, and the noise then") {
+  const Progress progress{100, 2, 0.04};  // 20 ms a sample; 1 % takes 1600 samples, 32 s
+  const auto check = [&](const Budget& budget, Ending ending, double in, double noise) {
+    const Forecast end = forecast(progress, budget);
+    CHECK(end.ending == ending);
+    CHECK(end.seconds == doctest::Approx(in));
+    CHECK(end.noise == doctest::Approx(noise));
+  };
+  check(spp(400), Ending::spp, 6, 0.02);
+  check(seconds(18), Ending::seconds, 16, 0.04 / 3);
+  check(error(0.01), Ending::error, 30, 0.01);
+  check({400, 18.0, 0.01}, Ending::spp, 6, 0.02);
+  check({1000, 18.0, 0.01}, Ending::seconds, 16, 0.04 / 3);
+  check({10000, 60.0, 0.01}, Ending::error, 30, 0.01);
+  check({50, {}, {}}, Ending::spp, 0, 0.04);
+  check(error(0.05), Ending::error, 0, 0.04);
+  CHECK(forecast(progress, {}).ending == Ending::none);
+  CHECK(forecast({}, spp(5)).ending == Ending::none);
+}
+
+TEST_CASE("a forecast knows when noise is believed") {
+  CHECK(forecast({100, 2, 0.04, false}, error(0.01)).seconds == doctest::Approx(126));  // to 0.5 %
+  CHECK(forecast({8, 0.8, 0.04}, error(0.1)).seconds == doctest::Approx(0.8));
+  CHECK(forecast({1, 0.8, kInfinity}, error(0.1)).ending == Ending::none);
+  CHECK(forecast({1, 0.8, kInfinity}, Budget{{}, 8.0, 0.1}).ending == Ending::seconds);
+  CHECK(seconds_to_error({100, 2, 0.04}, 0.02) == doctest::Approx(6));
+  CHECK(seconds_to_error({100, 2, 0.04}, 0.05) == 0);
+  CHECK_FALSE(seconds_to_error({100, 2, kInfinity}, 0.05));
+  CHECK_FALSE(seconds_to_error({100, 2, 0.04}, 0));
+}
+
+TEST_CASE("a forecast holds: the image ends then, and there") {
+  for (const Budget& budget : {Budget{300, 100.0, 0.001}, {100000, 3.0, 0.001}, {100000, 100.0, 0.03}}) {
+    Run run;
+    run.rate = 0.01;
+    run.go(spp(32));
+    const Forecast end = forecast(run.progress, budget);
+    const double before = run.progress.seconds;
+    run.go(budget);
+    CHECK(ended_by(run.progress, budget) == end.ending);
+    CHECK(run.progress.seconds - before == doctest::Approx(end.seconds).epsilon(0.02));
+    CHECK(run.progress.noise == doctest::Approx(end.noise).epsilon(0.01));
+  }
 }
 
 TEST_CASE("a live image's passes are short at first and grow to the longest") {

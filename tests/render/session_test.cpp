@@ -112,7 +112,7 @@ TEST_CASE(
   const auto film = session.rendering(generation);
   REQUIRE(film);
   CHECK(same_film(film->film, rendered.film));
-  CHECK(film->noise == rendered.noise);
+  CHECK(film->noise.noise == rendered.noise.noise);
   CHECK(last.counters.steps == rendered.counters.steps);
   CHECK(session.rendering(generation + 1) == nullptr);
   const std::atomic<bool> stop{false};

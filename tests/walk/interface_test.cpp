@@ -70,3 +70,40 @@ TEST_CASE("light that total reflection leads along a sphere does not come to a s
     }
   }
 }
+
+TEST_CASE("light that total reflection leads into the edge of a turned box comes out of it again") {
+  const double c = 0.7 * std::cos(0.5);
+  const double s = 0.7 * std::sin(0.5);
+  const BoxBody box{DMat3(c, 0, -s, 0, 0.7, 0, s, 0, c)};
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    Random random = stream(3, 0, i);
+    const Vec3 along(2 * random.next() - 1, 1, 1);  // on an edge
+    const Vec2 u{random.next(), random.next()};
+    Vec3 position = box.from_unit * along;
+    Vec3 direction = sample_sphere(u);
+    double way = 0;
+    for (int bounce = 0; bounce < 100; ++bounce) {
+      const Crossing crossing = box.first_crossing(position, direction, Real(1e9));
+      REQUIRE(crossing.kind == CrossingKind::exit);
+      REQUIRE(glm::dot(crossing.normal, direction) > Real(-1e-6));
+      position = crossing.point;
+      way += double{crossing.distance};
+      direction =
+          lift_off(renormalise(direction - 2 * glm::dot(direction, crossing.normal) * crossing.normal),
+                   -crossing.normal);
+    }
+    CHECK(way > 1);
+  }
+}
+
+TEST_CASE("light that skims a sphere, however rounding falls, goes on along it") {
+  const SphereBody sphere{DMat3(1)};
+  for (std::uint32_t i = 0; i < 200000; ++i) {
+    Random random = stream(4, 0, i);
+    const Vec2 u{random.next(), random.next()};
+    const Vec3 normal = sample_sphere(u);
+    const Vec3 position = sphere.snap(normal, normal);
+    const Vec3 direction = lift_off(make_frame(normal).tangent, -normal);
+    REQUIRE(sphere.first_crossing(position, direction, Real(1e9)).distance > kLeastCosine / 2);
+  }
+}
