@@ -14,9 +14,10 @@ namespace meander {
 
 /// Limits on single pixels, as idiff's: a pixel differs by its largest |d| over the channels.
 struct PixelLimits {
-  std::optional<double> each;  // what a pixel may differ by without being counted; 0 beside `percent` alone
-  std::optional<double> percent;  // of the pixels that may be counted; 0 beside `each` alone
-  std::optional<double> any;      // what no pixel may exceed
+  std::optional<double> each =
+      {};  // what a pixel may differ by without being counted; 0 beside `percent` alone
+  std::optional<double> percent = {};  // of the pixels that may be counted; 0 beside `each` alone
+  std::optional<double> any = {};      // what no pixel may exceed
 
   [[nodiscard]] bool counts() const noexcept { return each || percent; }
   [[nodiscard]] bool asked() const noexcept { return counts() || any; }
@@ -24,13 +25,13 @@ struct PixelLimits {
 
 /// Absent: not asked. A value equal to its limit is within it.
 struct CompareLimits {
-  PixelLimits fail;
-  PixelLimits warn;
-  std::optional<double> max_rmse;
-  std::optional<double> max_relative_rmse;
-  std::optional<double> max_relmse;
-  std::optional<double> max_mae;
-  std::optional<double> min_psnr;
+  PixelLimits fail = {};
+  PixelLimits warn = {};
+  std::optional<double> max_rmse = {};
+  std::optional<double> max_relative_rmse = {};
+  std::optional<double> max_relmse = {};
+  std::optional<double> max_mae = {};
+  std::optional<double> min_psnr = {};
   bool z_test = false;
 
   /// Whether anything decides if the images agree; else they must be equal.

@@ -134,4 +134,26 @@ TEST_CASE("A report without limits tells nothing of them") {
   CHECK(full.find("result            FAILED\n") != std::string::npos);
 }
 
+TEST_CASE("A report says where the standard error comes from") {
+  const Image a = with_variance(kA, 0.01f);
+  const Image b = with_variance(kB, 0.01f);
+  const auto says = [](const Image& x, const Image& y, const std::string& source) {
+    const Comparison c = compare_images(x, y, {}, {});
+    return comparison_text(c).find("(" + source + ")\n") != std::string::npos &&
+           comparison_json(c).find("\"error_from\": \"" + source + "\"") != std::string::npos;
+  };
+  CHECK(says(a, b, "variances of A and B"));
+  CHECK(says(a, kB, "variance of A alone"));
+  CHECK(says(kA, b, "variance of B alone"));
+  CHECK(says(kA, kB, "spread over pixels"));
+}
+
+TEST_CASE("JSON has null for what is infinite or not known") {
+  const std::string json = comparison_json(compare_images(kA, kA, {}, {}));
+  for (const char* name :
+       {"psnr", "max_abs_at", "relative_noise_a", "relative_noise_b", "beyond_fail", "z_test"})
+    CHECK(json.find("\"" + std::string(name) + "\": null") != std::string::npos);
+  CHECK(json.find("\"passed\": true") != std::string::npos);
+}
+
 }  // namespace meander

@@ -66,7 +66,7 @@ grep -q '^mean_signed .*(spread over pixels)$' out.txt || fail "the origin of th
 grep -q '^result  *FAILED$' out.txt || fail "no result"
 ! grep -q noise out.txt || fail "noise without variances"
 expect 0 '' a.pfm a.pfm --max-rmse 0 --min-psnr 1000
-value psnr 2 inf
+grep -q '^psnr  *inf dB$' out.txt || fail "the PSNR of equal images: $(grep psnr out.txt)"
 value mean_signed 4 0
 grep -q '^result  *passed$' out.txt || fail "no result of equal images"
 
@@ -85,9 +85,6 @@ expect 1 "$unequal" a.exr b.pfm
 value mean_signed_R 4 0.125
 grep -q '^mean_signed .*(variance of A alone)$' out.txt || fail "the variance of A alone is not said"
 ! grep -q relative_noise_b out.txt || fail "noise of an image without variances"
-expect 1 "$unequal" a.pfm b.exr
-value mean_signed_B 4 0.05
-grep -q '^mean_signed .*(variance of B alone)$' out.txt || fail "the variance of B alone is not said"
 
 # Every limit by its option: all of them a little beyond the value, then a little short of it. (tests/app tests each
 # alone.)
@@ -130,11 +127,6 @@ assert near(j['mean_signed_rgb'][0]['standard_error'], 0.25) and j['mean_signed_
 assert j['max_abs_at'] == {'x': 1, 'y': 1, 'channel': 'R'} and j['z_test'] is None
 assert near(j['relative_noise_a'], 0.1040793) and j['beyond_fail'] == j['beyond_warn'] == 1
 PY
-expect 0 '' a.pfm a.pfm --json
-python3 -c "
-import json
-j = json.load(open('out.txt'))
-assert j['passed'] and j['psnr'] is None and j['max_abs_at'] is None and j['relative_noise_a'] is None" || fail "the JSON of equal images"
 
 # The mask: d = 1 and -1 are left.
 expect 0 '' a.pfm b.pfm --mask mask.png --hard-fail 1
@@ -153,8 +145,7 @@ value non_finite 2 2
 python3 - <<'PY'
 from images import *
 exact = (3, 2, [[(1, 0.5, 0.25), (0, 0, 0), (4, 2, 1)], [(0.125, 0.25, 0.5), (3, 3, 3), (0.75, 0.5, 0.25)]])
-for write, name in ((write_pfm, 'f.pfm'), (write_hdr, 'f.hdr'), (write_exr, 'f.exr'), (write_tiff, 'f.tif'),
-                    (write_tiff, 'f.tiff')):
+for write, name in ((write_pfm, 'f.pfm'), (write_hdr, 'f.hdr'), (write_exr, 'f.exr'), (write_tiff, 'f.tiff')):
     write(name, exact)
 levels = (3, 2, [[(255, 128, 0), (1, 2, 3), (10, 11, 12)], [(200, 100, 50), (77, 77, 77), (254, 5, 250)]])
 decode = lambda v: v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4  # IEC 61966-2-1
@@ -166,7 +157,7 @@ write_tiff('levels.tif', levels, 8)
 write_pfm('one.pfm', (2, 1, [[(0.5,), (2,)]]))
 write_pfm('three.pfm', grey([0.5, 2]))
 PY
-for name in f.hdr f.exr f.tif f.tiff; do expect 0 '' $name f.pfm; done
+for name in f.hdr f.exr f.tiff; do expect 0 '' $name f.pfm; done
 for name in levels.png alpha.png levels16.png levels.tif; do expect 0 '' $name levels.pfm --hard-fail 1e-6; done
 expect 0 '' one.pfm three.pfm
 
@@ -263,9 +254,6 @@ for name in bright bright_other; do
   grep -q '^  image  *FAILED' out.txt || fail "$name: the image's mean does not show it: $(cat out.txt)"
   grep -q '^failed: z-test: the whole image is brighter in A, z ' err.txt || fail "$name: says $(cat err.txt)"
 done
-status=0
-"$meander" compare base.exr bright.exr --z-test -q 2>err.txt || status=$?
-[ $status -eq 1 ] && grep -q 'the whole image is darker in A, z -' err.txt || fail "darker: $(cat err.txt)"
 
 # One noise metric: inside the knot, where every pixel counts, compare's is that of the render's statistics.
 "$meander" render "$scene" -o crop.exr --spp 8 --width 240 --height 135 --crop 110,12,120,20 --stats crop.json --quiet
