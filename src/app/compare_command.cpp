@@ -164,24 +164,30 @@ int run_compare(const CompareOptions& options) {
 }
 
 void add_pixel_limits(CLI::App& verb, PixelLimits& limits, const std::string& name) {
+  const std::string group = "Limits on pixels, as idiff's, but only those that are given";
   const std::string does = name == "fail" ? "fail" : "warn (exit code 0)";
   verb.add_option("--" + name, limits.each, does + " when pixels differ by more than this in a channel")
-      ->check(at_least(0));
+      ->check(at_least(0))
+      ->group(group);
   verb.add_option("--" + name + "-percent", limits.percent,
                   "allow this percentage of the pixels to exceed --" + name + " (0)")
-      ->check(number_between(0, 100));
+      ->check(number_between(0, 100))
+      ->group(group);
   verb.add_option("--hard-" + name, limits.any, does + " when any pixel differs by more than this")
-      ->check(at_least(0));
+      ->check(at_least(0))
+      ->group(group);
 }
 
 void add_metric_limits(CLI::App& verb, CompareLimits& limits) {
-  verb.add_option("--max-rmse", limits.max_rmse, "fail above this RMSE")->check(at_least(0));
-  verb.add_option("--max-relative-rmse", limits.max_relative_rmse, "fail above this RMSE / mean |B|")
-      ->check(at_least(0));
-  verb.add_option("--max-relmse", limits.max_relmse, "fail above this mean of (A - B)^2 / (B^2 + 0.0001)")
-      ->check(at_least(0));
-  verb.add_option("--max-mae", limits.max_mae, "fail above this mean absolute error")->check(at_least(0));
-  verb.add_option("--min-psnr", limits.min_psnr, "fail below this PSNR (dB, peak 1)")->check(finite_number());
+  const auto add = [&](const char* name, std::optional<double>& limit, const char* text,
+                       const CLI::Validator& check) {
+    verb.add_option(name, limit, text)->check(check)->group("Limits on metrics");
+  };
+  add("--max-rmse", limits.max_rmse, "fail above this RMSE", at_least(0));
+  add("--max-relative-rmse", limits.max_relative_rmse, "fail above this RMSE / mean |B|", at_least(0));
+  add("--max-relmse", limits.max_relmse, "fail above this mean of (A - B)^2 / (B^2 + 0.0001)", at_least(0));
+  add("--max-mae", limits.max_mae, "fail above this mean absolute error", at_least(0));
+  add("--min-psnr", limits.min_psnr, "fail below this PSNR (dB, peak 1)", finite_number());
 }
 
 }  // namespace
@@ -196,7 +202,7 @@ void add_compare_command(CLI::App& app, Action& action) {
   verb->add_option("B", o->b, "reference image")->required();
   verb->add_option("--mask", o->mask, "image whose non-zero pixels are compared");
   verb->add_flag("--z-test", o->limits.z_test,
-                 "fail only where noise cannot explain it (both need variance channels)");
+                 "fail where noise cannot explain the difference (both need variance channels)");
   add_metric_limits(*verb, o->limits);
   add_pixel_limits(*verb, o->limits.fail, "fail");
   add_pixel_limits(*verb, o->limits.warn, "warn");

@@ -14,10 +14,9 @@ namespace meander {
 
 /// Limits on single pixels, as idiff's: a pixel differs by its largest |d| over the channels.
 struct PixelLimits {
-  std::optional<double> each =
-      {};  // what a pixel may differ by without being counted; 0 beside `percent` alone
+  std::optional<double> each = {};     // a pixel that differs by more is counted; 0 beside `percent` alone
   std::optional<double> percent = {};  // of the pixels that may be counted; 0 beside `each` alone
-  std::optional<double> any = {};      // what no pixel may exceed
+  std::optional<double> any = {};      // no pixel may differ by more
 
   [[nodiscard]] bool counts() const noexcept { return each || percent; }
   [[nodiscard]] bool asked() const noexcept { return counts() || any; }
