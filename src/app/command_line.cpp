@@ -61,6 +61,10 @@ CLI::Validator at_least(double low) {
 CLI::Validator greater_than(double low) {
   return number_check("a number greater than " + number_text(low), [low](double v) { return v > low; });
 }
+CLI::Validator number_between(double low, double high) {
+  return number_check("a number from " + number_text(low) + " to " + number_text(high),
+                      [low, high](double v) { return v >= low && v <= high; });
+}
 CLI::Validator finite_number() {
   return number_check("a finite number", [](double) { return true; });
 }

@@ -27,6 +27,7 @@ void add_report_command(CLI::App& app, Action& action);
 /// Checks of numbers that the parser makes while it still knows the option's name.
 [[nodiscard]] CLI::Validator at_least(double low);
 [[nodiscard]] CLI::Validator greater_than(double low);
+[[nodiscard]] CLI::Validator number_between(double low, double high);
 [[nodiscard]] CLI::Validator finite_number();
 /// Digits alone, below 2^64: the parser would take -1 for a very large seed.
 [[nodiscard]] CLI::Validator whole_number();

@@ -17,6 +17,7 @@ struct ReportRow {
   std::uint64_t spp = 0;
   double seconds = 0;
   double noise = 0;  // infinite below two samples a pixel
+  NoiseDoubt noise_doubt = NoiseDoubt::none;
   DebiasedError error;
   ImageError plain;  // nothing subtracted
   PathCounters counters;

@@ -29,12 +29,29 @@ Json per_second(std::uint64_t count, const ReportRow& row) {
   return row.seconds > 0 ? finite(static_cast<double>(count) / row.seconds) : Json(nullptr);
 }
 
+// Whether the noise can be relied upon, or why not.
+Json noise_word(const ReportRow& row) {
+  if (!std::isfinite(row.noise)) return nullptr;
+  switch (row.noise_doubt) {
+    case NoiseDoubt::too_few_samples:
+      return "too few samples";
+    case NoiseDoubt::rare_bright_samples:
+      return "rare bright samples";
+    case NoiseDoubt::too_few_pixels:
+      return "too few pixels";
+    case NoiseDoubt::none:
+      break;
+  }
+  return "reliable";
+}
+
 // What is measured at every budget.
 const std::vector<Column>& row_columns() {
   static const std::vector<Column> columns{
       {"spp", [](auto&, auto& row) { return Json(row.spp); }},
       {"seconds", [](auto&, auto& row) { return Json(row.seconds); }},
       {"noise", [](auto&, auto& row) { return finite(row.noise); }},
+      {"noise_is", [](auto&, auto& row) { return noise_word(row); }},
       {"error", [](auto&, auto& row) { return finite(row.error.rms()); }},
       {"error_low", [](auto&, auto& row) { return finite(row.error.rms_low()); }},
       {"error_high", [](auto&, auto& row) { return finite(row.error.rms_high()); }},

@@ -21,15 +21,12 @@ ReportRow make_row(const Report& report, const Rendering& rendering) {
   ReportRow row;
   row.spp = rendering.spp;
   row.seconds = rendering.seconds;
-  row.noise = rendering.noise;
+  row.noise = rendering.noise.noise;
+  row.noise_doubt = rendering.noise.doubt;
   row.error = debiased_error(image, report.reference.image, report.mask);
   row.plain = image_error(image, report.reference.image, report.mask);
   row.counters = rendering.counters;
   return row;
-}
-
-Progress progress_of(const Rendering& rendering) {
-  return {rendering.spp, rendering.seconds, rendering.noise};
 }
 
 // A run in the making.
@@ -72,7 +69,7 @@ class Runner {
       if (stop_ || !passes_.advance(done_, samples, next_)) return false;
       next_.seconds = done_.seconds + timer.seconds();
       std::swap(done_, next_);
-      done_.noise = relative_noise(done_.film, report_.mask);
+      done_.noise = estimate_noise(done_.film, report_.mask);
       progress_.show(done_);
     }
   }

@@ -21,6 +21,10 @@ std::string percent(double fraction) {
 
 bool is_unsure(const ReportRow& row) { return row.error.reference_mse && !row.error.reference_suffices(); }
 
+bool has_doubt(const ReportRow& row) {
+  return std::isfinite(row.noise) && row.noise_doubt != NoiseDoubt::none;
+}
+
 bool any_row(const Report& report, bool (*has)(const ReportRow&)) {
   return std::ranges::any_of(report.runs,
                              [&](const ReportRun& run) { return std::ranges::any_of(run.rows, has); });
@@ -67,7 +71,7 @@ TextTable budget_table(const Report& report) {
     for (const ReportRow& row : run.rows) {
       table.rows.push_back(
           {std::string(estimator_name(run.estimator)), std::to_string(run.threads), std::to_string(row.spp),
-           number(row.seconds, "%.2f"), percent(row.noise),
+           number(row.seconds, "%.2f"), percent(row.noise) + (has_doubt(row) ? "?" : ""),
            percent(row.error.rms()) + (is_unsure(row) ? "?" : ""),
            percent(row.error.rms_low()) + " - " + percent(row.error.rms_high()), reference_error(row),
            number(static_cast<double>(row.counters.walks) / row.seconds / 1e6),
@@ -96,9 +100,11 @@ std::vector<std::string> report_notes(const Report& report) {
   std::vector<std::string> notes{"Reference: " + report.reference.source + "."};
   if (any_row(report, [](const ReportRow& row) { return row.error.reference_mse.has_value(); }))
     notes.push_back("The reference's own error, a column of the table, is subtracted from the others.");
+  if (any_row(report, has_doubt))
+    notes.push_back("noise?: too few samples, too few pixels or rare bright samples make it unreliable.");
   if (any_row(report, is_unsure))
     notes.push_back(
-        "?: the reference's own error is above a third of this one; --reference-spp makes it smaller.");
+        "error?: the reference's own is above a third of it; --reference-spp makes that smaller.");
   if (report.interrupted) notes.push_back("Interrupted: this is what was complete.");
   return notes;
 }

@@ -29,7 +29,12 @@ ImageError image_error(const Image& a, const Image& reference, std::span<const s
       error.relmse += d * d / (b * b + 1e-4);
       error.mae += std::abs(d);
       error.mean_signed += d;
-      error.max_abs = std::max(error.max_abs, std::abs(d));
+      if (std::abs(d) > error.max_abs) {
+        error.max_abs = std::abs(d);
+        error.max_x = static_cast<int>(pixel % a.width);
+        error.max_y = static_cast<int>(pixel / a.width);
+        error.max_channel = channel;
+      }
       reference_sum += std::abs(b);
     }
   }
@@ -43,6 +48,37 @@ ImageError image_error(const Image& a, const Image& reference, std::span<const s
   error.psnr = -10 * std::log10(error.mse);
   if (values == 0) error.max_abs = std::numeric_limits<double>::quiet_NaN();
   return error;
+}
+
+double relative_noise(const Image& image, std::span<const std::uint8_t> mask) {
+  const CountedPixels counted(image, image, mask, 6);
+  double sum = 0;
+  std::size_t terms = 0;
+  for (std::size_t pixel = 0; pixel < static_cast<std::size_t>(image.width) * image.height; ++pixel) {
+    if (!counted.counts(pixel)) continue;
+    const float* value = &image.values[pixel * image.channels];
+    for (int channel = 0; channel < 3; ++channel)
+      sum += value[channel + 3] / (double{value[channel]} * value[channel] + 1e-4);
+    terms += 3;
+  }
+  return terms == 0 ? 0 : std::sqrt(sum / static_cast<double>(terms));
+}
+
+std::size_t pixels_beyond(const Image& a, const Image& reference, double threshold,
+                          std::span<const std::uint8_t> mask) {
+  const CountedPixels counted(a, reference, mask, 3);
+  std::size_t beyond = 0;
+  for (std::size_t pixel = 0; pixel < static_cast<std::size_t>(a.width) * a.height; ++pixel) {
+    if (!counted.counts(pixel)) continue;
+    double largest = 0;
+    for (int channel = 0; channel < 3; ++channel) {
+      const double d = std::abs(double{a.values[pixel * a.channels + channel]} -
+                                reference.values[pixel * reference.channels + channel]);
+      largest = std::isfinite(d) ? std::max(largest, d) : std::numeric_limits<double>::infinity();
+    }
+    beyond += largest > threshold;
+  }
+  return beyond;
 }
 
 }  // namespace meander

@@ -1,5 +1,6 @@
-// How far one image is from another: error metrics, and the z-test that knows the noise of both. `mask` has
-// one byte a pixel, non-zero where it counts; an empty or all-zero mask counts every pixel. Images of
+// How far one image is from another: error metrics, and the z-test that knows the noise of both. An image has
+// the channels R G B and, from the fourth on, the variance of the mean of each where it knows them. `mask`
+// has one byte a pixel, non-zero where it counts; an empty or all-zero mask counts every pixel. Images of
 // different sizes, with too few channels, or a mask of another size throw Error (input).
 #pragma once
 
@@ -23,12 +24,45 @@ struct ImageError {
   double psnr = 0;           // -10 log10(mse), decibels at peak 1; +infinity when equal
   double mean_signed = 0;    // mean d
   double max_abs = 0;        // largest |d|
-  std::size_t pixels = 0;    // counted
+  int max_x = -1;            // its pixel and channel, the first in reading order; -1 where all d are 0
+  int max_y = -1;
+  int max_channel = -1;
+  std::size_t pixels = 0;  // counted
   std::size_t non_finite = 0;
 };
 
 [[nodiscard]] ImageError image_error(const Image& a, const Image& reference,
                                      std::span<const std::uint8_t> mask = {});
+
+/// Where the standard error of a mean difference comes from.
+enum class ErrorSource : std::uint8_t { both_variances, variance_of_a, variance_of_b, spread };
+
+/// The mean of d = a - b over everything and per channel, each with its standard error.
+struct MeanDifference {
+  double mean = 0;
+  double standard_error = 0;
+  std::array<double, 3> channel_mean{};
+  std::array<double, 3> channel_standard_error{};
+  ErrorSource source = ErrorSource::spread;
+};
+
+/// Values that are not finite are left out, as from ImageError. Pixels count as independent.
+/// - Where images carry variances: a channel's standard error is sqrt(sum of v_a + v_b) / n. The three
+///   channels of a pixel share their walks, so the error over all of them takes them as fully correlated: an
+///   upper bound. An image without variances counts as free of noise. A variance that is negative or not
+///   finite makes the error NaN.
+/// - Where neither does: the standard error of the mean of the pixels' differences, taken as a sample. It
+///   holds how the difference varies over the picture besides the noise. NaN below two pixels.
+[[nodiscard]] MeanDifference mean_difference(const Image& a, const Image& reference,
+                                             std::span<const std::uint8_t> mask = {});
+
+/// The noise metric: sqrt(mean over channels and counted pixels of v / (m^2 + 1e-4)), v the variance of the
+/// mean m. Needs the variances.
+[[nodiscard]] double relative_noise(const Image& image, std::span<const std::uint8_t> mask = {});
+
+/// How many counted pixels have a channel with |d| above `threshold`, or one that is not finite.
+[[nodiscard]] std::size_t pixels_beyond(const Image& a, const Image& reference, double threshold,
+                                        std::span<const std::uint8_t> mask = {});
 
 /// What a z-test may take for chance.
 struct ZTestOptions {
