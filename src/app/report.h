@@ -63,6 +63,10 @@ struct Report {
   bool interrupted = false;
 };
 
+/// Whether the bias test's verdict can be believed: the variances that it goes by are too small where rare
+/// bright samples carry them, and a sound image then fails.
+[[nodiscard]] bool bias_is_reliable(const Report& report, const ReportRun& run) noexcept;
+
 [[nodiscard]] std::string_view estimator_name(Estimator estimator) noexcept;
 
 /// The name of a run, and of its image's file: "analog", or "analog-2t" where a report has several thread

@@ -7,9 +7,11 @@
 
 #include "app/command_line.h"
 #include "app/interrupt.h"
+#include "app/plot_picture.h"
 #include "app/render_options.h"
 #include "app/report_files.h"
 #include "app/report_page.h"
+#include "app/report_plot.h"
 #include "app/report_reference.h"
 #include "app/report_run.h"
 #include "app/report_table.h"
@@ -75,6 +77,18 @@ ReportPlan plan_of(const ReportOptions& options, const Job& job) {
   return plan;
 }
 
+// Nothing without OpenGL, which only the plot needs.
+std::optional<Image8> draw_plot_of(const Report& report) {
+  constexpr int kWidth = 960;
+  constexpr int kHeight = 600;
+  try {
+    return plot_picture(report_plot(report), kWidth, kHeight);
+  } catch (const Error& error) {
+    std::cerr << "meander: warning: there is no plot: " << error.what() << '\n';
+    return std::nullopt;
+  }
+}
+
 int run_report(const ReportOptions& options) {
   check_folder(options.render.output);
   Report report;
@@ -96,7 +110,9 @@ int run_report(const ReportOptions& options) {
   if (report.runs.empty())
     throw Error(Fault::runtime, "interrupted before the first pass was complete; nothing was written");
   write_report_data(report, options.render.output);
-  const std::string page = report_page(report, std::nullopt);
+  const std::optional<Image8> plot = draw_plot_of(report);
+  if (plot) write_png(options.render.output + "/report.png", *plot, {});
+  const std::string page = report_page(report, plot);
   write_file(options.render.output + "/index.html", std::as_bytes(std::span(page)));
   std::cout << report_text(report);
   if (report.interrupted) std::cerr << "meander: interrupted; wrote what was complete\n";

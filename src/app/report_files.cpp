@@ -106,6 +106,12 @@ const std::vector<Column>& run_columns() {
   return columns;
 }
 
+// A verdict goes by variances that may be too small.
+Json bias_word(const Report& report, const ReportRun& run) {
+  if (!run.bias) return nullptr;
+  return bias_is_reliable(report, run) ? "reliable" : "rare bright samples";
+}
+
 std::string cell(const Json& value) {
   if (value.is_null()) return "";
   return value.is_string() ? value.get<std::string>() : value.dump();
@@ -124,6 +130,7 @@ Json run_json(const Report& report, const ReportRun& run) {
   object["walk"] = run.walk;
   object["threads"] = run.threads;
   object.update(json_of(run_columns(), run, run.rows.back()));
+  object["bias_test_is"] = bias_word(report, run);
   object["rows"] = Json::array();
   for (const ReportRow& row : run.rows) object["rows"].push_back(json_of(row_columns(), run, row));
   return object;
@@ -148,7 +155,7 @@ std::string report_csv(const Report& report) {
   std::string text = "run,estimator,walk,threads";
   for (const auto* columns : {&row_columns(), &run_columns()})
     for (const Column& column : *columns) text += std::string(",") + column.name;
-  text += '\n';
+  text += ",bias_test_is\n";
   for (const ReportRun& run : report.runs) {
     for (const ReportRow& row : run.rows) {
       text += run_name(report, run) + "," + std::string(estimator_name(run.estimator)) + "," + run.walk +
@@ -156,7 +163,7 @@ std::string report_csv(const Report& report) {
       for (const Column& column : row_columns()) text += "," + cell(column.value(run, row));
       const bool last = &row == &run.rows.back();
       for (const Column& column : run_columns()) text += "," + (last ? cell(column.value(run, row)) : "");
-      text += '\n';
+      text += "," + (last ? cell(bias_word(report, run)) : "") + "\n";
     }
   }
   return text;

@@ -15,9 +15,8 @@ std::string number(double value, const char* format = "%.3g") {
 }
 
 // Three digits that count, without an exponent.
-std::string percent(double fraction) {
-  return number(100 * fraction, 100 * fraction >= 99.95 ? "%.0f" : "%.3g");
-}
+std::string plain(double value) { return number(value, value >= 99.95 ? "%.0f" : "%.3g"); }
+std::string percent(double fraction) { return plain(100 * fraction); }
 
 bool is_unsure(const ReportRow& row) { return row.error.reference_mse && !row.error.reference_suffices(); }
 
@@ -34,14 +33,15 @@ std::string reference_error(const ReportRow& row) {
   return row.error.reference_mse ? percent(row.error.reference_rms()) : "-";
 }
 
-std::string bias_text(const ReportRun& run) {
+std::string bias_text(const Report& report, const ReportRun& run) {
   if (!run.bias) return "not made";
-  return std::string(run.bias->passed ? "passed" : "FAILED") + ", p " + number(bias_p(*run.bias), "%.2g");
+  return std::string(run.bias->passed ? "passed" : "FAILED") + (bias_is_reliable(report, run) ? "" : "?") +
+         ", p " + number(bias_p(*run.bias), "%.2g");
 }
 
 std::string one_percent_text(const ReportRow& last) {
   if (!std::isfinite(last.noise)) return "-";
-  return number(last.seconds_to_one_percent()) + (last.noise <= 0.01 ? " measured" : " extrapolated");
+  return plain(last.seconds_to_one_percent()) + (last.noise <= 0.01 ? " measured" : " extrapolated");
 }
 
 void append_columns(const TextTable& table, std::string& text) {
@@ -82,15 +82,15 @@ TextTable budget_table(const Report& report) {
 }
 
 TextTable run_table(const Report& report) {
-  TextTable table{{"run", "threads", "1 % noise after s", "bias test", "99.99 % of samples below", "largest",
+  TextTable table{{"run", "threads", "s to 1 % noise", "bias test", "99.99 % of samples below", "largest",
                    "of samples", "walk"},
                   {}};
   for (const ReportRun& run : report.runs) {
     const auto& found = run.fireflies;
     table.rows.push_back({std::string(estimator_name(run.estimator)), std::to_string(run.threads),
-                          one_percent_text(run.rows.back()), bias_text(run),
-                          found ? number(found->quantile) + " x mean" : "-",
-                          found ? number(found->largest) + " x mean" : "-",
+                          one_percent_text(run.rows.back()), bias_text(report, run),
+                          found ? plain(found->quantile) + " x mean" : "-",
+                          found ? plain(found->largest) + " x mean" : "-",
                           found ? std::to_string(found->samples) : "too few", run.walk});
   }
   return table;
@@ -105,6 +105,10 @@ std::vector<std::string> report_notes(const Report& report) {
   if (any_row(report, is_unsure))
     notes.push_back(
         "error?: the reference's own is above a third of it; --reference-spp makes that smaller.");
+  if (std::ranges::any_of(report.runs,
+                          [&](const ReportRun& run) { return run.bias && !bias_is_reliable(report, run); }))
+    notes.push_back(
+        "bias test?: it goes by variances that rare bright samples make too small; a sound image may fail.");
   if (report.interrupted) notes.push_back("Interrupted: this is what was complete.");
   return notes;
 }

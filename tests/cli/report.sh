@@ -37,7 +37,7 @@ material = "wax"
 TOML
 
 "$meander" report ball.toml -o deep/one --spp 64 --thread-counts 1,2 > table.txt 2> messages.txt || fail "report: $(cat messages.txt)"
-for file in report.csv report.json reference.exr implicit-1t.exr implicit-2t.exr analog-1t.exr analog-2t.exr; do
+for file in report.csv report.json report.png index.html reference.exr implicit-1t.exr implicit-2t.exr analog-1t.exr analog-2t.exr; do
   [ -s "deep/one/$file" ] || fail "there is no $file"
 done
 [ -z "$(find . -name '*.partial-*')" ] || fail "a partial file is left"
@@ -67,6 +67,7 @@ for run in report['runs']:
         assert abs(float(row['relmse']) / whole - 1) < 1e-6, (row['relmse'], whole)
         assert math.isclose(float(row['efficiency']), 1 / (float(row['error']) ** 2 * float(row['seconds'])), rel_tol=1e-9)
         assert math.isclose(float(row['walks_per_second']), int(row['walks']) / float(row['seconds']), rel_tol=1e-9)
+    assert of_run[-1]['noise_is'] == 'reliable' == of_run[-1]['bias_test_is'] and of_run[0]['noise_is'] == ''
     assert of_run[0]['noise'] == '' and run['rows'][0]['noise'] is None
     assert all(float(a['seconds']) < float(b['seconds']) for a, b in zip(of_run, of_run[1:]))
     # The error falls as the root of the samples: eight times less at 64, within the scatter of 300 pixels.
@@ -76,7 +77,37 @@ for run in report['runs']:
     assert run['bias_test'] == 'passed' and of_run[-1]['bias_test'] == 'passed' and of_run[0]['bias_test'] == ''
     assert run['contribution_p99_99'] is None and run['leaked_walks'] == 0  # too few samples for a tail
 table = open('table.txt').read()
-assert table.count('bias test passed') == 4 and '1024 samples a pixel, seed 1' in table, table
+assert table.count('passed, p') == 4 and '1024 samples a pixel, seed 1' in table, table
+PY
+
+# The page holds its pictures and asks for nothing beside itself.
+python3 - <<'PY' || fail "the page"
+import base64, re
+from html.parser import HTMLParser
+page = open('deep/one/index.html').read()
+class Tags(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.open, self.images, self.cells = [], [], 0
+    def handle_starttag(self, tag, attributes):
+        if tag not in ('meta', 'img', 'br'):
+            self.open.append(tag)
+        for name, value in attributes:
+            assert name not in ('href', 'srcset', 'data', 'action'), (tag, name, value)
+            if name == 'src':
+                assert tag == 'img' and value.startswith('data:image/png;base64,'), value[:60]
+                self.images.append(base64.b64decode(value.split(',', 1)[1], validate=True))
+        self.cells += tag == 'td'
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag, tag
+tags = Tags()
+tags.feed(page)
+tags.close()
+assert not tags.open and not re.search('https?:|url\\(|@import', page)
+# The plot, the reference, and an image and its error for either estimator: other threads give the same.
+assert len(tags.images) == 6 and all(image[:4] == b'\x89PNG' and image[-8:-4] == b'IEND' for image in tags.images)
+assert tags.images[0] == open('deep/one/report.png', 'rb').read()
+assert tags.cells == 28 * 11 + 4 * 8, tags.cells
 PY
 
 # The same seed gives the same errors; another does not.
@@ -120,7 +151,7 @@ PY
 # A reference 3 % brighter than the truth: the bias test must see it.
 "$meander" render ball.toml -o bright.exr --spp 1024 --seed 9 --quiet --set light.key.radiance=6.18 --set environment.radiance=0.309
 "$meander" report ball.toml -o bright --spp 512 --estimators implicit,analog --quiet --reference bright.exr > bright.txt
-[ "$(grep -c 'bias test FAILED' bright.txt)" -eq 2 ] || fail "a bias of 3 % goes unseen: $(cat bright.txt)"
+[ "$(grep -c 'FAILED, p' bright.txt)" -eq 2 ] || fail "a bias of 3 % goes unseen: $(cat bright.txt)"
 
 # Bad input: one line, exit code 2, nothing written.
 refuse() {
