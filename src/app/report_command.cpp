@@ -17,7 +17,7 @@
 #include "app/report_table.h"
 #include "core/error.h"
 #include "core/timer.h"
-#include "io/output_file.h"
+#include "io/image_file.h"
 #include "render/first_hits.h"
 #include "render/parallel.h"
 
