@@ -6,6 +6,7 @@ dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 cd "$dir"
 fail() { echo "FAILED: $*"; exit 1; }
+[ "$(nproc)" -ge 2 ] || fail "this test needs two processors, to tell numbers of threads apart"
 
 cat > ball.toml <<'TOML'
 [camera]
