@@ -180,7 +180,8 @@ std::string report_page(const Report& report, const std::optional<Image8>& plot)
       escaped(title) + "</h1>\n" + facts(report);
   for (const std::string& note : report_notes(report)) text += "<p>" + escaped(note) + "</p>\n";
   if (plot)
-    text += picture(*plot, "Error against time, logarithmic; the dashed line falls as the root of the time");
+    text += picture(
+        *plot, "Errors with their 95 % intervals; dashed, the noise; grey, the fall as the root of the time");
   text += "<h2>Budgets</h2>\n" + html_table(budget_table(report));
   text +=
       "<p>Noise is what the image says of itself, error what the reference says of it, both relative, over "
