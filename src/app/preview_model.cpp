@@ -156,6 +156,7 @@ StatisticsModel statistics_model(const PreviewState& state, const ModelInputs& i
   model.spp = frame->spp;
   model.seconds = frame->seconds;
   model.noise = std::isfinite(frame->noise) ? frame->noise : 0;
+  model.noise_reliable = model.noise == 0 || frame->noise_reliable;
   model.walks = frame->counters.walks;
   model.leaked_walks = frame->counters.leaked_walks;
   model.non_finite = frame->non_finite;

@@ -77,7 +77,8 @@ Ending ended_by(const Progress& progress, const Budget& budget) noexcept {
 std::optional<double> seconds_to_error(const Progress& progress, double error) noexcept {
   if (!(progress.noise > 0 && progress.seconds > 0 && error > 0) || std::isinf(progress.noise))
     return std::nullopt;
-  return seconds_per_sample(progress) * samples_by_law(progress, error);
+  const double ratio = progress.noise / error;
+  return progress.seconds * std::max(ratio * ratio - 1, 0.0);
 }
 
 Forecast forecast(const Progress& progress, const Budget& budget) noexcept {

@@ -129,6 +129,7 @@ struct StatisticsModel {
   std::uint64_t spp = 0;
   double seconds = 0;
   double noise = 0;  // 0 while unknown
+  bool noise_reliable = true;
   double walks_per_second = 0;
   double steps_per_second = 0;
   double mean_scatterings = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "film/plan.h"
 #include "ui/panels.h"
 #include "ui/style.h"
 #include "ui/text.h"
@@ -91,9 +92,7 @@ void draw_history(const Axes& axes, const StatisticsModel& model, ImDrawList& li
 }  // namespace
 
 std::optional<double> seconds_to_noise(const StatisticsModel& model, double target) {
-  if (!(model.noise > 0) || !(model.seconds > 0) || !(target > 0)) return std::nullopt;
-  const double ratio = model.noise / target;
-  return std::max(0.0, model.seconds * (ratio * ratio - 1));
+  return seconds_to_error({model.spp, model.seconds, model.noise}, target);
 }
 
 void noise_plot(const StatisticsModel& model, double target, const std::pair<ImVec2, ImVec2>& box) {

@@ -41,7 +41,9 @@ void target_row(const Ui& ui, const StatisticsModel& model) {
 
 void speed(const StatisticsModel& model) {
   fact("Samples per pixel", std::to_string(model.spp) + " in " + duration_text(model.seconds));
-  fact("Noise", model.noise > 0 ? percent_text(model.noise) : "–");
+  fact("Noise",
+       model.noise > 0 ? percent_text(model.noise) + (model.noise_reliable ? "" : ", unreliable") : "–",
+       model.noise_reliable ? kTextColor : kWarnColor);
   fact("Walks",
        count_text(static_cast<double>(model.walks)) + ", " + count_text(model.walks_per_second) + " /s");
   fact("Steps", count_text(model.steps_per_second) + " /s");
