@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "film/noise.h"
+
 namespace meander {
 namespace {
 
@@ -163,8 +165,8 @@ Comparison compare_images(const Image& a, const Image& b, std::span<const std::u
   Comparison c;
   c.error = image_error(a, b, mask);
   c.mean = mean_difference(a, b, mask);
-  if (a.channels >= 6) c.noise_a = relative_noise(a, mask);
-  if (b.channels >= 6) c.noise_b = relative_noise(b, mask);
+  if (a.channels >= 6) c.noise_a = estimate_noise(a, mask).noise;
+  if (b.channels >= 6) c.noise_b = estimate_noise(b, mask).noise;
   if (limits.fail.counts()) c.beyond_fail = pixels_beyond(a, b, limits.fail.each.value_or(0), mask);
   if (limits.warn.counts()) c.beyond_warn = pixels_beyond(a, b, limits.warn.each.value_or(0), mask);
   if (limits.z_test) c.z = z_test(a, b, mask);

@@ -22,20 +22,40 @@ struct MeanSum {
   }
 };
 
-// The counted pixels of a film.
-struct Counted {
+using Channels = std::array<double, 3>;
+
+// The means and their variances, of a film or of an image that was resolved from one.
+struct FilmSource {
   const Film& film;
-  const std::vector<std::uint8_t>* mask;  // null when every pixel counts
+  [[nodiscard]] int width() const noexcept { return film.width; }
+  [[nodiscard]] int height() const noexcept { return film.height; }
+  [[nodiscard]] Channels mean(int x, int y) const noexcept { return film.at(x, y).mean; }
+  [[nodiscard]] Channels variance(int x, int y) const noexcept { return film.at(x, y).variance_of_mean(); }
+};
+struct ImageSource {
+  const Image& image;
+  [[nodiscard]] int width() const noexcept { return image.width; }
+  [[nodiscard]] int height() const noexcept { return image.height; }
+  [[nodiscard]] Channels mean(int x, int y) const noexcept { return three(image.at(x, y)); }
+  [[nodiscard]] Channels variance(int x, int y) const noexcept { return three(image.at(x, y) + 3); }
+  static Channels three(const float* p) noexcept { return {double{p[0]}, double{p[1]}, double{p[2]}}; }
+};
+
+// The counted pixels of a source.
+template <class Source>
+struct Counted {
+  Source source;
+  std::span<const std::uint8_t> mask;  // empty when every pixel counts
 
   [[nodiscard]] bool at(int x, int y) const noexcept {
-    return !mask || (*mask)[static_cast<std::size_t>(y) * film.width + x] != 0;
+    return mask.empty() || mask[static_cast<std::size_t>(y) * source.width() + x] != 0;
   }
 
   // Row y - 1 to y + 1 of a column.
   [[nodiscard]] MeanSum column(int x, int y) const noexcept {
     MeanSum sum;
-    for (int row = std::max(y - 1, 0); row < std::min(y + 2, film.height); ++row)
-      if (at(x, row)) sum += {film.at(x, row).mean, 1};
+    for (int row = std::max(y - 1, 0); row < std::min(y + 2, source.height()); ++row)
+      if (at(x, row)) sum += {source.mean(x, row), 1};
     return sum;
   }
 };
@@ -45,14 +65,12 @@ struct Variances {
   double sum = 0;  // with the neighbours' mean
   double own = 0;  // with the pixel's own
   double pixels = 0;
-  std::uint64_t fewest = std::numeric_limits<std::uint64_t>::max();  // samples of a pixel
-  double squared_differences = 0;                                    // of neighbours in a row
+  double squared_differences = 0;  // of neighbours in a row
   double pairs = 0;
 };
 
 // v / (m^2 + 1e-4), summed over the channels.
-double relative_variance(const std::array<double, 3>& variance, const std::array<double, 3>& mean,
-                         double pixels) noexcept {
+double relative_variance(const Channels& variance, const Channels& mean, double pixels) noexcept {
   double sum = 0;
   for (int c = 0; c < 3; ++c) {
     const double m = mean[c] / pixels;
@@ -61,8 +79,9 @@ double relative_variance(const std::array<double, 3>& variance, const std::array
   return sum;
 }
 
-void gather_row(const Counted& counted, int y, std::vector<MeanSum>& columns, Variances& all) {
-  const int width = counted.film.width;
+template <class Source>
+void gather_row(const Counted<Source>& counted, int y, std::vector<MeanSum>& columns, Variances& all) {
+  const int width = counted.source.width();
   for (int x = 0; x < width; ++x) columns[x] = counted.column(x, y);
   double left = -1;  // the counted pixel's to the left
   for (int x = 0; x < width; ++x) {
@@ -73,13 +92,11 @@ void gather_row(const Counted& counted, int y, std::vector<MeanSum>& columns, Va
     MeanSum around = columns[x];
     if (x > 0) around += columns[x - 1];
     if (x + 1 < width) around += columns[x + 1];
-    const Pixel& pixel = counted.film.at(x, y);
-    const std::array<double, 3> variance = pixel.variance_of_mean();
+    const Channels variance = counted.source.variance(x, y);
     const double value = relative_variance(variance, around.mean, around.pixels);
     all.sum += value;
-    all.own += relative_variance(variance, pixel.mean, 1);
+    all.own += relative_variance(variance, counted.source.mean(x, y), 1);
     ++all.pixels;
-    all.fewest = std::min(all.fewest, pixel.count);
     if (left >= 0) {
       all.squared_differences += (value - left) * (value - left);
       ++all.pairs;
@@ -96,24 +113,43 @@ double standard_error(const Variances& all) noexcept {
   return 0.5 * deviation * std::sqrt(all.pixels) / all.sum;
 }
 
+// An all-zero mask counts every pixel, as none does.
+std::span<const std::uint8_t> effective(std::span<const std::uint8_t> mask) noexcept {
+  const bool some = std::any_of(mask.begin(), mask.end(), [](std::uint8_t m) { return m != 0; });
+  return some ? mask : std::span<const std::uint8_t>();
+}
+
+template <class Source>
+NoiseEstimate estimate(const Source& source, std::span<const std::uint8_t> mask) {
+  const Counted<Source> counted{source, mask};
+  Variances all;
+  std::vector<MeanSum> columns(static_cast<std::size_t>(source.width()));
+  for (int y = 0; y < source.height(); ++y) gather_row(counted, y, columns, all);
+  if (all.pixels == 0) return {};
+  NoiseEstimate result{std::sqrt(all.sum / (3 * all.pixels)), standard_error(all),
+                       std::sqrt(all.own / (3 * all.pixels)), NoiseDoubt::none};
+  if (result.noise > kMostNoiseRatio * result.own)
+    result.doubt = NoiseDoubt::rare_bright_samples;
+  else if (result.standard_error > kMostNoiseError)
+    result.doubt = NoiseDoubt::too_few_pixels;
+  return result;
+}
+
 }  // namespace
 
-NoiseEstimate estimate_noise(const Film& film, const std::vector<std::uint8_t>& mask) {
+NoiseEstimate estimate_noise(const Film& film, std::span<const std::uint8_t> mask) {
   assert(mask.empty() || mask.size() == film.pixels.size());
-  const bool some = std::any_of(mask.begin(), mask.end(), [](std::uint8_t m) { return m != 0; });
-  const Counted counted{film, some ? &mask : nullptr};
-  Variances all;
-  std::vector<MeanSum> columns(static_cast<std::size_t>(film.width));
-  for (int y = 0; y < film.height; ++y) gather_row(counted, y, columns, all);
-  if (all.pixels == 0) return {};
-  if (all.fewest < 2) return {kInfinity, kInfinity, kInfinity, NoiseDoubt::too_few_samples};
-  NoiseEstimate estimate{std::sqrt(all.sum / (3 * all.pixels)), standard_error(all),
-                         std::sqrt(all.own / (3 * all.pixels)), NoiseDoubt::none};
-  if (estimate.noise > kMostNoiseRatio * estimate.own)
-    estimate.doubt = NoiseDoubt::rare_bright_samples;
-  else if (estimate.standard_error > kMostNoiseError)
-    estimate.doubt = NoiseDoubt::too_few_pixels;
-  return estimate;
+  const auto counted = effective(mask);
+  for (std::size_t i = 0; i < film.pixels.size(); ++i)
+    if (film.pixels[i].count < 2 && (counted.empty() || counted[i] != 0))
+      return {kInfinity, kInfinity, kInfinity, NoiseDoubt::too_few_samples};
+  return estimate(FilmSource{film}, counted);
+}
+
+NoiseEstimate estimate_noise(const Image& resolved, std::span<const std::uint8_t> mask) {
+  assert(resolved.channels >= 6);
+  assert(mask.empty() || mask.size() == static_cast<std::size_t>(resolved.width) * resolved.height);
+  return estimate(ImageSource{resolved}, effective(mask));
 }
 
 const char* describe(NoiseDoubt doubt) noexcept {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include "film/film.h"
 
@@ -41,7 +41,10 @@ inline constexpr double kMostNoiseError = 0.05;
 /// the difference between both divisions tells how far single samples carry their pixels. The standard error
 /// comes from the differences of v / m^2 between neighbours in a row, so that a picture's own gradients are
 /// not taken for chance. What no pixel has met yet stays unknown.
-[[nodiscard]] NoiseEstimate estimate_noise(const Film& film, const std::vector<std::uint8_t>& mask);
+[[nodiscard]] NoiseEstimate estimate_noise(const Film& film, std::span<const std::uint8_t> mask);
+
+/// The same of a resolved film (R G B, then the variance of each mean), whose samples are taken to be enough.
+[[nodiscard]] NoiseEstimate estimate_noise(const Image& resolved, std::span<const std::uint8_t> mask);
 
 /// The doubt in words, "" without one.
 [[nodiscard]] const char* describe(NoiseDoubt doubt) noexcept;

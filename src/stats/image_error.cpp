@@ -50,20 +50,6 @@ ImageError image_error(const Image& a, const Image& reference, std::span<const s
   return error;
 }
 
-double relative_noise(const Image& image, std::span<const std::uint8_t> mask) {
-  const CountedPixels counted(image, image, mask, 6);
-  double sum = 0;
-  std::size_t terms = 0;
-  for (std::size_t pixel = 0; pixel < static_cast<std::size_t>(image.width) * image.height; ++pixel) {
-    if (!counted.counts(pixel)) continue;
-    const float* value = &image.values[pixel * image.channels];
-    for (int channel = 0; channel < 3; ++channel)
-      sum += value[channel + 3] / (double{value[channel]} * value[channel] + 1e-4);
-    terms += 3;
-  }
-  return terms == 0 ? 0 : std::sqrt(sum / static_cast<double>(terms));
-}
-
 std::size_t pixels_beyond(const Image& a, const Image& reference, double threshold,
                           std::span<const std::uint8_t> mask) {
   const CountedPixels counted(a, reference, mask, 3);

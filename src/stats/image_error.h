@@ -56,10 +56,6 @@ struct MeanDifference {
 [[nodiscard]] MeanDifference mean_difference(const Image& a, const Image& reference,
                                              std::span<const std::uint8_t> mask = {});
 
-/// The noise metric: sqrt(mean over channels and counted pixels of v / (m^2 + 1e-4)), v the variance of the
-/// mean m. Needs the variances.
-[[nodiscard]] double relative_noise(const Image& image, std::span<const std::uint8_t> mask = {});
-
 /// How many counted pixels have a channel with |d| above `threshold`, or one that is not finite.
 [[nodiscard]] std::size_t pixels_beyond(const Image& a, const Image& reference, double threshold,
                                         std::span<const std::uint8_t> mask = {});

@@ -78,9 +78,9 @@ value mean_signed_G 4 0
 value mean_signed_B 4 0.05
 value mean_signed 4 0.0939
 grep -q '^mean_signed .*(variances of A and B)$' out.txt || fail "the origin of the error is not said"
-# sqrt((0.09 / 1.0001 + 0.16 / 4.0001) / 12), sqrt((0.24 + 0.04 + 0.51) / 1.0001 / 12).
-value relative_noise_a 2 0.104079
-value relative_noise_b 2 0.256567
+# All four pixels are neighbours, of mean 2.5 and 2: sqrt((0.09 + 0.16) / 6.2501 / 12), sqrt((0.24 + 0.04 + 0.51) / 4.0001 / 12).
+value relative_noise_a 2 0.0577346
+value relative_noise_b 2 0.128288
 expect 1 "$unequal" a.exr b.pfm
 value mean_signed_R 4 0.125
 grep -q '^mean_signed .*(variance of A alone)$' out.txt || fail "the variance of A alone is not said"
@@ -125,7 +125,7 @@ assert near(j['rmse'], 1.5 ** 0.5) and j['mae'] == 1 and near(j['psnr'], -1.7609
 assert j['mean_signed']['value'] == 0.5 and j['mean_signed']['error_from'] == 'variances of A and B'
 assert near(j['mean_signed_rgb'][0]['standard_error'], 0.25) and j['mean_signed_rgb'][2]['value'] == 0.5
 assert j['max_abs_at'] == {'x': 1, 'y': 1, 'channel': 'R'} and j['z_test'] is None
-assert near(j['relative_noise_a'], 0.1040793) and j['beyond_fail'] == j['beyond_warn'] == 1
+assert near(j['relative_noise_a'], 0.05773457) and j['beyond_fail'] == j['beyond_warn'] == 1
 PY
 
 # The mask: d = 1 and -1 are left.

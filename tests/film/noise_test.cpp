@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "math/random.h"
 
@@ -77,9 +78,9 @@ TEST_CASE("noise is infinite while a counted pixel has fewer than two samples, a
   film.at(0, 0) = make_pixel({Rgb(1), Rgb(1)});
   film.at(1, 0) = make_pixel({Rgb(1)});
   CHECK(noise(film, {1, 1}) == kInfinity);
-  CHECK(estimate_noise(film, {1, 1}).doubt == NoiseDoubt::too_few_samples);
+  CHECK(estimate_noise(film, std::vector<std::uint8_t>{1, 1}).doubt == NoiseDoubt::too_few_samples);
   CHECK(noise(film, {1, 0}) == 0);
-  CHECK(estimate_noise(film, {1, 0}).reliable());  // nothing varies: nothing to doubt
+  CHECK(estimate_noise(film, std::vector<std::uint8_t>{1, 0}).reliable());  // nothing varies: nothing to doubt
 }
 
 TEST_CASE("ordinary noise is met within its standard error and not doubted") {
@@ -107,6 +108,30 @@ TEST_CASE("a handful of pixels cannot tell their noise, a single one never") {
   CHECK(estimate_noise(film, mask).standard_error == kInfinity);
   mask[1] = mask[2] = 1;
   CHECK(estimate_noise(film, mask).doubt == NoiseDoubt::too_few_pixels);
+}
+
+TEST_CASE("the noise of a resolved film is that of the film, and the hand-computed one") {
+  const Film film = rare_film(12, 40, 10, 5);
+  std::vector<std::uint8_t> mask(film.pixels.size(), 1);
+  for (std::size_t i = 0; i < 30; ++i) mask[i * 3] = 0;
+  const NoiseEstimate direct = estimate_noise(film, mask);
+  const NoiseEstimate resolved = estimate_noise(resolve(film), mask);
+  CHECK(resolved.noise == doctest::Approx(direct.noise).epsilon(1e-6));
+  CHECK(resolved.own == doctest::Approx(direct.own).epsilon(1e-6));
+  CHECK(resolved.standard_error == doctest::Approx(direct.standard_error).epsilon(1e-5));
+  // Two pixels, means (1, 2, 0) and (-1, 5, 3): own v / (m^2 + 1e-4) is 0.25 / 1.0001, 0.04 / 4.0001,
+  // 1e-4 / 1e-4 | 0, 0, 0.09 / 9.0001. The means of both are (0, 3.5, 1.5), so that v / (m^2 + 1e-4) is
+  // 0.25 / 1e-4, 0.04 / 12.2501, 1e-4 / 2.2501 | 0, 0, 0.09 / 2.2501.
+  Image image(2, 1, 6);
+  image.values = {1, 2, 0, 0.25f, 0.04f, 1e-4f, -1, 5, 3, 0, 0, 0.09f};
+  const double own = 0.25 / 1.0001 + 0.04 / 4.0001 + 1 + 0.09 / 9.0001;
+  const double shared = 2500 + 0.04 / 12.2501 + 1e-4 / 2.2501 + 0.09 / 2.2501;
+  const NoiseEstimate both = estimate_noise(image, {});
+  CHECK(both.own == doctest::Approx(std::sqrt(own / 6)).epsilon(1e-6));
+  CHECK(both.noise == doctest::Approx(std::sqrt(shared / 6)).epsilon(1e-6));
+  const std::vector<std::uint8_t> only_first = {1, 0};
+  const double first = 0.25 / 1.0001 + 0.04 / 4.0001 + 1;
+  CHECK(estimate_noise(image, only_first).noise == doctest::Approx(std::sqrt(first / 3)).epsilon(1e-6));
 }
 
 }  // namespace meander

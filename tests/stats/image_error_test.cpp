@@ -144,16 +144,4 @@ TEST_CASE("Pixels beyond a threshold have one channel that is, or one that is no
   CHECK(pixels_beyond(a, broken, 1000) == 1);
 }
 
-TEST_CASE("The relative noise is the hand-computed one") {
-  // v / (m^2 + 1e-4): 0.25 / 1.0001, 0.04 / 4.0001, 1e-4 / 1e-4 | 0, 0, 0.09 / 9.0001.
-  Image image(2, 1, 6);
-  image.values = {1, 2, 0, 0.25f, 0.04f, 1e-4f, -1, 5, 3, 0, 0, 0.09f};
-  const double first = 0.25 / 1.0001 + 0.04 / 4.0001 + 1;
-  const double second = 0.09 / 9.0001;
-  CHECK(relative_noise(image) == doctest::Approx(std::sqrt((first + second) / 6)).epsilon(1e-6));
-  const std::vector<std::uint8_t> only_first = {1, 0};
-  CHECK(relative_noise(image, only_first) == doctest::Approx(std::sqrt(first / 3)).epsilon(1e-6));
-  CHECK_THROWS_AS((void)relative_noise(Image(2, 1, 3)), Error);
-}
-
 }  // namespace meander
