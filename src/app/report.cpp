@@ -11,9 +11,8 @@ double ReportRow::efficiency() const noexcept { return meander::efficiency(error
 double ReportRow::seconds_to_one_percent() const noexcept { return seconds_to_noise(seconds, noise, 0.01); }
 
 bool bias_is_reliable(const Report& report, const ReportRun& run) noexcept {
-  const bool made = report.reference.rendering.spp > 0;
-  return run.rows.back().noise_doubt != NoiseDoubt::rare_bright_samples &&
-         !(made && report.reference.rendering.noise.doubt == NoiseDoubt::rare_bright_samples);
+  return run.doubt != NoiseDoubt::rare_bright_samples &&
+         report.reference.doubt != NoiseDoubt::rare_bright_samples;
 }
 
 std::string_view estimator_name(Estimator estimator) noexcept {

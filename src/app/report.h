@@ -39,17 +39,19 @@ struct ReportRun {
   std::string walk;  // the model of the scene's walks, in words
   int threads = 1;
   std::vector<ReportRow> rows;
-  Image image;                // of the last row, six channels
-  Rendering last;             // without its film
+  Image image;                          // of the last row, six channels
+  Rendering last;                       // without its film
+  NoiseDoubt doubt = NoiseDoubt::none;  // of the noise of the whole image, which the bias test covers
   std::optional<ZTest> bias;  // none where an image has too few samples, or the reference no variance
   std::optional<Fireflies> fireflies;  // none where too few samples were traced, or it was interrupted
 };
 
 /// What the runs are held against.
 struct ReportReference {
-  Image image;          // three channels, or six with the variance of each mean
-  std::string source;   // in words
-  Rendering rendering;  // without its film; without samples where it was given
+  Image image;                          // three channels, or six with the variance of each mean
+  std::string source;                   // in words
+  Rendering rendering;                  // without its film; without samples where it was given
+  NoiseDoubt doubt = NoiseDoubt::none;  // of the noise of the whole image; none where it was given
 };
 
 struct Report {

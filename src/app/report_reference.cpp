@@ -63,6 +63,7 @@ ReportReference make_reference(Job job, const Budget& budget, bool quiet, const 
   progress.finish();
   if (stop) throw Error(Fault::runtime, "interrupted before the reference was complete; nothing was written");
   reference.image = resolve(reference.rendering.film);
+  reference.doubt = estimate_noise(reference.rendering.film, {}).doubt;
   reference.rendering.film = {};
   reference.source = "implicit, " + std::to_string(reference.rendering.spp) + " samples a pixel, seed " +
                      std::to_string(job.seed);

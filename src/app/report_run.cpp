@@ -53,6 +53,7 @@ class Runner {
     if (left_over) run.rows.push_back(make_row(report_, done_));
     progress_.finish();
     run.image = resolve(done_.film);
+    run.doubt = estimate_noise(done_.film, {}).doubt;
     done_.film = {};
     run.last = std::move(done_);
   }
