@@ -32,9 +32,9 @@ inline constexpr double kMostNoiseError = 0.05;
 /// a counted pixel has fewer than two samples; 0 without pixels.
 ///
 /// Not the pixel's own mean: a bright sample raises that together with v, so that v / m^2 is too low where
-/// bright samples are rare, and never above 1, the value of one sample that outshines all others. Measured on
-/// ten scenes of 32 x 32 at 64 samples a pixel the noise is up to 13 % too low with a pixel's own mean, up to
-/// 4 % with its neighbours'.
+/// bright samples are rare, and never above 1, the value of one sample that outshines all others. On ten
+/// scenes of 32 x 32 at 64 samples a pixel the noise is up to 14 % too low with a pixel's own mean, up to 3 %
+/// with its neighbours' (tests/calibration/noise.csv).
 ///
 /// The doubts. A variance that rare samples carry is estimated too low, and nothing in the estimate itself
 /// tells (Chatterjee and Diaconis 2018, "The sample size required in importance sampling", section 2); but

@@ -31,7 +31,7 @@ inline constexpr double kLongestPass = 0.5;  // seconds: how long a viewer may h
 /// Samples a pixel in the next pass, 0 when the image is done. Passes double the total (1, 1, 2, 4, …), but
 /// none past the first is predicted to take over `longest` seconds (or one sample), to pass `spp`, or to pass
 /// the samples at which the noise, falling as 1/sqrt(spp), reaches `error`. Noise is believed from 16 samples
-/// on: below, its estimate falls short of the truth by over 10 % (tests/calibration). One that is unreliable
+/// on, where it is on average up to 9 % too low (tests/calibration), and less later. One that is unreliable
 /// is believed when it is half of `error`: it falls short, and does so less and less, so that four times the
 /// samples give it the chance to show; a scene that stays unreliable ends all the same. The time left is
 /// filled with the nearest whole number of predicted samples, so the end is off by half a sample's time at

@@ -1,9 +1,10 @@
 // Whether the errors that pictures state are the errors that they have: small renders of many seeds against
 // a long one of another.
 //
-//   noise_calibration                two scenes of the quick test
-//   noise_calibration --all          every scene; writes tests/calibration/noise.csv
-//   noise_calibration --scene NAME   one scene; no file
+//   noise_calibration                the three scenes of the quick test
+//   noise_calibration --all          every scene
+//   ... --table FILE                 writes the table there too
+//   noise_calibration --scene NAME   one scene
 //
 // Ordinary scenes: predicted over true noise within 10 % for every single render at 64 and 256 samples a
 // pixel, and none of them doubted; --error E ends at a predicted noise in [0.85 E, E] and a true one within
@@ -51,6 +52,7 @@ constexpr Case kCases[] = {
 struct Options {
   bool all = false;
   std::string scene;
+  std::string table;
   [[nodiscard]] int seeds() const { return all || !scene.empty() ? 16 : 6; }
   [[nodiscard]] std::uint64_t longest(const Case& c) const {
     return seeds() == 16 ? c.longest : std::min<std::uint64_t>(c.longest, 2048);
@@ -243,15 +245,17 @@ Options parse(int argc, char** argv) {
       options.all = true;
     else if (arg == "--scene" && i + 1 < argc)
       options.scene = argv[++i];
+    else if (arg == "--table" && i + 1 < argc)
+      options.table = argv[++i];
     else
-      throw std::runtime_error("unknown option " + arg + " (--all, --scene NAME)");
+      throw std::runtime_error("unknown option " + arg + " (--all, --scene NAME, --table FILE)");
   }
   return options;
 }
 
 bool run(const Options& options) {
   std::ofstream file;
-  if (options.all) file.open(std::string(MEANDER_SOURCE_DIR) + "/tests/calibration/noise.csv");
+  if (!options.table.empty()) file.open(options.table);
   const std::string head =
       "scene,spp,renders,true,true_error,predicted,ratio,lowest,highest,own_ratio,standard_error,doubted";
   std::printf("%s\n", head.c_str());
