@@ -145,7 +145,7 @@ class Drawing {
     for (const PlotPoint& p : series.points) {
       if (!usable(p)) continue;
       const ImVec2 here = at(p.x, p.y);
-      if (p.y_low > 0 && p.y_high > p.y_low) {
+      if (p.y_low > 0 && p.y_high > p.y_low && std::isfinite(p.y_high)) {
         const float top = at(p.x, p.y_high).y;
         const float bottom = at(p.x, p.y_low).y;
         list_.AddLine({here.x, top}, {here.x, bottom}, color, kBar);

@@ -91,6 +91,19 @@ TEST_CASE("a straight line of slope -1/2 is drawn straight, and the guide lies o
   const auto first = std::pair(300, middle(rows_of(apart, 300, kVermilion)));
   const auto last = std::pair(550, middle(rows_of(apart, 550, kVermilion)));
   CHECK(guide == doctest::Approx(slope(first, last)).epsilon(0.05));
+  // It goes through the last point of the first series, whose mark is the only blue below the legend.
+  double x_sum = 0;
+  double y_sum = 0;
+  double pixels = 0;
+  for (int x = 450; x < apart.width; ++x)
+    for (const int y : rows_of(apart, x, kBlue, 260)) {
+      x_sum += x;
+      y_sum += y;
+      ++pixels;
+    }
+  REQUIRE(pixels > 20);
+  const double on_guide = seen.front().second + guide * (x_sum / pixels - seen.front().first);
+  CHECK(std::abs(y_sum / pixels - on_guide) < 4);
 }
 
 TEST_CASE("no point, one point, equal points and points that are none are all drawn") {
