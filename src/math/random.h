@@ -20,6 +20,8 @@ class Random {
  public:
   explicit Random(const std::array<std::uint32_t, 4>& state) noexcept : s_(state) {}
 
+  [[nodiscard]] const std::array<std::uint32_t, 4>& state() const noexcept { return s_; }
+
   [[nodiscard]] std::uint32_t next_bits() noexcept {
     const std::uint32_t result = rotate(s_[0] + s_[3], 7) + s_[0];
     const std::uint32_t t = s_[1] << 9;

@@ -1,6 +1,7 @@
 #include "trace/mesh_body.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -53,6 +54,55 @@ void intersect(RTCScene scene, RTCRayHit& query, RTCFilterFunctionN filter) noex
   rtcInitIntersectContext(&context);
   context.filter = filter;
   rtcIntersect1(scene, &context, &query);
+}
+
+// The point of a triangle that is nearest to p: the nearest of its edges' points and, where that is inside,
+// the foot of the perpendicular. Edges always count, so that a needle's normal may be as bad as it likes.
+Vec3 nearest_in_triangle(const Vec3& p, const std::array<Vec3, 3>& corners) noexcept {
+  const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const Real normal2 = glm::dot(normal, normal);
+  bool inside = normal2 > 0;
+  Vec3 best = corners[0];
+  Real best2 = std::numeric_limits<Real>::infinity();
+  const auto offer = [&](const Vec3& candidate) {
+    const Real d2 = glm::dot(p - candidate, p - candidate);
+    if (!(d2 < best2)) return;
+    best2 = d2;
+    best = candidate;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& from = corners[i];
+    const Vec3 edge = corners[(i + 1) % 3] - from;
+    const Vec3 to = p - from;
+    inside = inside && glm::dot(glm::cross(edge, to), normal) >= 0;
+    const Real length2 = glm::dot(edge, edge);
+    offer(from + (length2 > 0 ? std::clamp(glm::dot(to, edge) / length2, Real(0), Real(1)) : Real(0)) * edge);
+  }
+  if (inside) offer(p - normal * (glm::dot(p - corners[0], normal) / normal2));
+  return best;
+}
+
+// What a nearest-point query carries from triangle to triangle.
+struct NearestSearch {
+  const glm::vec3* positions;
+  const Triangle* triangles;
+  Vec3 place;
+  Vec3 point{0};
+  unsigned triangle = RTC_INVALID_GEOMETRY_ID;
+};
+
+bool visit_triangle(RTCPointQueryFunctionArguments* args) {
+  auto& search = *static_cast<NearestSearch*>(args->userPtr);
+  const Triangle& t = search.triangles[args->primID];
+  const Vec3 point = nearest_in_triangle(
+      search.place,
+      {Vec3(search.positions[t[0]]), Vec3(search.positions[t[1]]), Vec3(search.positions[t[2]])});
+  const auto distance = static_cast<float>(glm::length(search.place - point));
+  if (!(distance < args->query->radius)) return false;
+  args->query->radius = distance;
+  search.point = point;
+  search.triangle = args->primID;
+  return true;
 }
 
 }  // namespace
@@ -129,6 +179,21 @@ std::optional<MeshHit> MeshBody::closest(const Vec3& o, const Vec3& d, Real dist
   hit.distance *= scale_;
   hit.point *= scale_;
   return hit;
+}
+
+std::optional<Nearest> MeshBody::nearest(const Vec3& p, Real limit) const noexcept {
+  NearestSearch search{positions_.data(), triangles_.data(), p * inverse_scale_};
+  RTCPointQuery query{static_cast<float>(search.place.x), static_cast<float>(search.place.y),
+                      static_cast<float>(search.place.z), 0, static_cast<float>(limit * inverse_scale_)};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene_.get(), &query, &context, visit_triangle, &search);
+  if (search.triangle == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const Triangle& t = triangles_[search.triangle];
+  const Vec3 a(positions_[t[0]]);
+  const Vec3 normal = glm::cross(Vec3(positions_[t[1]]) - a, Vec3(positions_[t[2]]) - a);
+  const Real length = glm::length(normal);
+  return Nearest{search.point * scale_, length > 0 ? normal / length : Vec3(0), Real(query.radius) * scale_};
 }
 
 Crossing MeshBody::first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {

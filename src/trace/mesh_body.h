@@ -32,6 +32,13 @@ struct MeshHit {
   Vec3 shading_normal;
 };
 
+/// The point of the surface that is nearest to another, and the geometric normal there (unit, outward).
+struct Nearest {
+  Vec3 point;
+  Vec3 normal;
+  Real distance;
+};
+
 class MeshBody {
  public:
   /// The mesh under the linear map, moved so that its bounds are centred on the origin; `center` receives
@@ -47,8 +54,15 @@ class MeshBody {
   /// The first surface within `distance` along a ray, from either side.
   [[nodiscard]] std::optional<MeshHit> closest(const Vec3& o, const Vec3& d, Real distance) const noexcept;
 
+  /// Of all points of the surface within `limit` the nearest to `p`; its distance is short of the true one,
+  /// or beyond it, by at most 2^-20 of the scale.
+  [[nodiscard]] std::optional<Nearest> nearest(const Vec3& p, Real limit) const noexcept;
+
   /// Half the size of the bounds along each axis.
   [[nodiscard]] const Vec3& half_size() const noexcept { return half_size_; }
+
+  /// A power of two just above the largest of them, by which rounding is measured.
+  [[nodiscard]] Real scale() const noexcept { return scale_; }
 
  private:
   // In units of scale_.

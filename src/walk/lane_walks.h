@@ -1,0 +1,118 @@
+// Runs walks in lanes through one body: the vector code advances them, scalar code sees to the lanes that
+// rest.
+#pragma once
+
+#include "walk/lanes.h"
+
+namespace meander {
+
+/// What gives a batch its walks and takes them back.
+/// start(lane, walker, random): sets up the first walk of a lane, or says false when there is none left.
+/// end(lane, result, walker, random): a walk of the lane has ended; true when another (the same one, sent
+/// back inside, or a new one) has been set up in its place. collided(lane, walker, random): see WalkEvents::
+/// scattered; the random numbers it draws are the walk's.
+template <class C>
+concept LaneClient = requires(C& client, int lane, const WalkResult& result, Walker& walker, Random& random) {
+  { client.start(lane, walker, random) } -> std::same_as<bool>;
+  { client.end(lane, result, walker, random) } -> std::same_as<bool>;
+  client.collided(lane, walker, random);
+  { client.stop() } -> std::same_as<bool>;
+};
+
+/// Lanes that rest before scalar code sees to them: few, so that most lanes run.
+inline constexpr int kRestingLanes = 16;
+
+/// Steps that cost a ray, of all.
+struct LaneCounters {
+  std::uint64_t rays = 0;
+};
+
+/// The walks that a client gives, in one body; implicit capture.
+template <World W, LaneClient C>
+class LaneWalks {
+ public:
+  LaneWalks(InstructionSet set, const W& world, const LaneModel& model, C& client) noexcept
+      : set_(set), world_(world), model_(model), client_(client) {}
+
+  /// Runs until the client has no walk left; false when it said stop, which is asked about once a step of
+  /// every lane.
+  [[nodiscard]] bool run() noexcept {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);
+      Walker walker;
+      Random random({1, 0, 0, 0});
+      if (client_.start(lane, walker, random)) put(lane, walker, random, false);
+    }
+    while (in_use_ > 0) {
+      if (client_.stop()) return false;
+      advance_lanes(set_, model_, lanes_, kLanes, kLanes - in_use_ + std::min(kRestingLanes, in_use_));
+      for (int lane = 0; lane < kLanes; ++lane) see_to(lane);
+    }
+    return true;
+  }
+
+  [[nodiscard]] const LaneCounters& counters() const noexcept { return counters_; }
+
+ private:
+  void put(int lane, const Walker& walker, const Random& random, bool scatters) noexcept {
+    if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::empty)) ++in_use_;
+    put_walker(lanes_, lane, walker, random, scatters, model_.medium.sigma_t);
+    if (model_.region.balls) put_ball(lanes_, lane, model_.region.balls->at(glm::vec3(walker.position)));
+    hero_[lane] = static_cast<std::uint8_t>(walker.weight.hero);
+  }
+
+  void see_to(int lane) noexcept {
+    const auto state = static_cast<LaneState>(lanes_.state[lane]);
+    if (state == LaneState::running || state == LaneState::empty) return;
+    Walker walker = walker_of(lanes_, lane);
+    walker.weight.hero = hero_[lane];
+    Random random = random_of(lanes_, lane);
+    if (state == LaneState::absorbed) return end(lane, {WalkEnd::absorbed, {}}, walker, random);
+    if (state == LaneState::crossing && !cross(lane, walker, random)) return;
+    if (model_.rests_at_collisions) client_.collided(lane, walker, random);
+    put(lane, walker, random, true);
+  }
+
+  // Traces the ray of a step; true when it ended in a collision that the walk survived.
+  [[nodiscard]] bool cross(int lane, Walker& walker, Random& random) noexcept {
+    ++counters_.rays;
+    const Crossing crossing =
+        world_.first_crossing(walker.position, walker.direction, Real(lanes_.distance[lane]));
+    if (crossing.kind != CrossingKind::none) {
+      walker.weight.pass(model_.medium, crossing.distance);
+      if (crossing.kind == CrossingKind::exit) walker.position = crossing.point;
+      const bool exited = crossing.kind == CrossingKind::exit;
+      end(lane, {exited ? WalkEnd::exited : WalkEnd::leaked, crossing}, walker, random);
+      return false;
+    }
+    walker.position = crossing.point;
+    walker.weight.collide(model_.medium, crossing.distance);
+    walker.weight.albedo *= model_.medium.albedo;
+    if (!walker.weight.survives_roulette(random, kRouletteThreshold)) {
+      end(lane, {WalkEnd::absorbed, crossing}, walker, random);
+      return false;
+    }
+    ++walker.weight.order;
+    return true;
+  }
+
+  void end(int lane, const WalkResult& result, Walker& walker, Random& random) noexcept {
+    if (client_.end(lane, result, walker, random)) {
+      put(lane, walker, random, false);
+      return;
+    }
+    lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);
+    --in_use_;
+  }
+
+  InstructionSet set_;
+  const W& world_;
+  const LaneModel& model_;
+  C& client_;
+  Lanes lanes_{};
+  std::uint8_t hero_[kLanes] = {};
+  int in_use_ = 0;
+  LaneCounters counters_;
+};
+
+}  // namespace meander

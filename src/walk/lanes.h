@@ -1,0 +1,97 @@
+// Many walks side by side in lanes of SIMD: each lane flies, collides and scatters until it needs something
+// that is not vector code (a ray, a shadow ray, a new walk), and rests there until it has been seen to.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "medium/medium.h"
+#include "scene/empty_balls.h"
+#include "walk/random_walk.h"
+
+namespace meander {
+
+/// Lanes of one batch: enough that the rested ones are seen to in groups, few enough to stay in the nearest
+/// cache.
+inline constexpr int kLanes = 128;
+
+/// Why a lane rests. `running` lanes do not.
+enum class LaneState : std::uint32_t {
+  running,
+  crossing,  // the step of length `distance` may cross the surface: a ray has to tell
+  collided,  // a collision's weight has been applied and the old direction still stands
+  absorbed,  // roulette ended the walk
+  empty      // holds no walk
+};
+
+/// The walks of a batch, one a lane; single precision. Weights as in PathWeight: `ratio` are the densities of
+/// the free paths in proportion, `lift` what roulette has multiplied the throughput by, which `throughput`
+/// leaves out. `ball` is one that holds the position, or has a negative squared radius.
+struct alignas(64) Lanes {
+  using Row = float[kLanes];
+  Row position[3];
+  Row direction[3];
+  Row ball_center[3];
+  Row ball_radius2;
+  Row throughput[3];
+  Row albedo[3];
+  Row ratio[3];
+  Row lift;
+  Row length;
+  Row distance;
+  Row sigma;         // of the channel that samples the distances
+  Row one_minus_mu;  // of the deflection that made the direction, and
+  Row one_plus_mu;
+  std::uint32_t random[4][kLanes];
+  std::uint32_t order[kLanes];
+  std::uint32_t steps[kLanes];
+  std::uint32_t scatters[kLanes];  // 1 where a new direction is due before the next step, else 0
+  std::uint32_t state[kLanes];
+};
+
+/// Puts a walk into a lane, which runs from then on; what scatters next is `scatters`.
+void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, bool scatters,
+                const Rgb& sigma_t) noexcept;
+
+/// Gives a lane a ball, if that holds its position.
+void put_ball(Lanes& lanes, int lane, const EmptyBall& ball) noexcept;
+
+/// The walk of a lane (but for its hero channel) and the state of its generator, for scalar code.
+[[nodiscard]] Walker walker_of(const Lanes& lanes, int lane) noexcept;
+[[nodiscard]] Random random_of(const Lanes& lanes, int lane) noexcept;
+
+/// A convex part of space in which a step crosses nothing when both its ends are there: what is inside of a
+/// convex body, or the balls of any body. Convex: low <= map * p <= high, or |map * p| <= 1 for an ellipsoid.
+struct SafeRegion {
+  enum class Kind { box, ellipsoid, balls } kind = Kind::box;
+  float map[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // rows
+  float low[3] = {-1, -1, -1};
+  float high[3] = {1, 1, 1};
+  const EmptyBalls* balls = nullptr;
+};
+
+/// What the lanes walk through: implicit capture. `rests_at_collisions`: every collision needs a shadow ray.
+struct LaneModel {
+  Medium medium;
+  SafeRegion region;
+  bool rests_at_collisions = false;
+};
+
+enum class InstructionSet { baseline, sse4, avx2, avx512 };
+
+/// Names as `--isa` takes them, and back; nothing for another name.
+[[nodiscard]] std::string_view name_of(InstructionSet set) noexcept;
+[[nodiscard]] std::optional<InstructionSet> instruction_set(std::string_view name) noexcept;
+
+/// Those that this machine has, best last.
+[[nodiscard]] std::span<const InstructionSet> instruction_sets() noexcept;
+
+/// Advances the running lanes among the first `count` (a multiple of 16) until at least `enough` of all rest,
+/// or none runs. The instruction set must be one that the machine has. One set gives the same numbers
+/// wherever it runs.
+void advance_lanes(InstructionSet set, const LaneModel& model, Lanes& lanes, int count, int enough) noexcept;
+
+}  // namespace meander

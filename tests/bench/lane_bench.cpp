@@ -1,0 +1,139 @@
+// The walk in lanes on one core, in the cases of walk_bench.cpp. Never a test: timings are for reading.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "trace/empty_balls.h"
+#include "walk/analytic_worlds.h"
+#include "walk/lane_walks.h"
+#include "walk/lobe.h"
+
+using namespace meander;
+
+namespace {
+
+// Walks without end, counted as they leave.
+template <class Start>
+struct Endless {
+  const Start& launch;
+  std::uint64_t walks = 0;
+  std::uint64_t steps = 0;
+  double sum = 0;
+  double squares = 0;
+  std::uint64_t left = 0;
+  std::uint32_t next = 0;
+
+  [[nodiscard]] bool start(int, Walker& walker, Random& random) noexcept {
+    if (left == 0) return false;
+    --left;
+    random = stream(0, 0, next++);
+    walker = Walker{};
+    launch(walker, random);
+    return true;
+  }
+  [[nodiscard]] bool end(int lane, const WalkResult& result, Walker& walker, Random& random) noexcept {
+    const double weight = result.end == WalkEnd::exited ? double{walker.weight.carried().x} : 0;
+    ++walks;
+    sum += weight;
+    squares += weight * weight;
+    steps += walker.steps;
+    return start(lane, walker, random);
+  }
+  void collided(int, Walker&, Random&) const noexcept {}
+  [[nodiscard]] bool stop() const noexcept { return false; }
+};
+
+template <class W, class Start>
+void run_lanes(benchmark::State& state, const W& world, const LaneModel& model, const Start& start) {
+  const InstructionSet set = instruction_sets()[std::min<std::size_t>(
+      static_cast<std::size_t>(state.range(1)), instruction_sets().size() - 1)];
+  Endless<Start> client{start};
+  std::uint64_t rays = 0;
+  for (auto _ : state) {
+    client.left = 100000;
+    LaneWalks walks(set, world, model, client);
+    (void)walks.run();
+    rays += walks.counters().rays;
+  }
+  const auto walks = static_cast<double>(client.walks);
+  const double mean = client.sum / walks;
+  using benchmark::Counter;
+  state.counters["steps/s"] = Counter(static_cast<double>(client.steps), Counter::kIsRate);
+  state.counters["walks/s"] = Counter(walks, Counter::kIsRate);
+  state.counters["steps/walk"] = static_cast<double>(client.steps) / walks;
+  state.counters["rays/walk"] = static_cast<double>(rays) / walks;
+  state.counters["escaped"] = mean;
+  state.counters["standard_error"] = std::sqrt((client.squares / walks - mean * mean) / walks);
+}
+
+LaneModel model_of(benchmark::State& state, Real g) {
+  const Real mean_free_path = static_cast<Real>(state.range(0)) / 1000;
+  LaneModel model;
+  model.medium = {Rgb(1 / mean_free_path), Rgb(Real(0.99)), g};
+  return model;
+}
+
+void lanes_sphere(benchmark::State& state, Real g) {
+  LaneModel model = model_of(state, g);
+  model.region.kind = SafeRegion::Kind::ellipsoid;
+  run_lanes(state, SphereWorld{1}, model, [](Walker& walker, Random& random) {
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    walker.position = {0, 0, 1};
+    walker.direction = -sample_cosine_hemisphere({u1, u2});
+  });
+}
+
+void lanes_mesh(benchmark::State& state, const Mesh& mesh, Real g) {
+  const Device device = make_device(1);
+  DVec3 center;
+  const MeshBody body(device.get(), mesh, DMat3(1), center);
+  const auto begin = std::chrono::steady_clock::now();
+  const EmptyBalls balls = make_empty_balls(body, 2, static_cast<int>(state.range(2)));
+  const double build = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  LaneModel model = model_of(state, g);
+  model.region.kind = SafeRegion::Kind::balls;
+  model.region.balls = &balls;
+  run_lanes(state, body, model, [&](Walker& walker, Random& random) {
+    const auto count = static_cast<Real>(mesh.triangles.size());
+    const Triangle& t =
+        mesh.triangles[std::min(static_cast<std::size_t>(random.next() * count), mesh.triangles.size() - 1)];
+    const DVec3& a = mesh.positions[t[0]];
+    const DVec3& b = mesh.positions[t[1]];
+    const DVec3& c = mesh.positions[t[2]];
+    const Vec3 normal(glm::normalize(glm::cross(b - a, c - a)));
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    walker.position = Vec3((a + b + c) / 3.0 - center) - Real(0x1p-20) * normal;
+    walker.direction = make_lobe(-normal, -normal).sample({u1, u2});
+  });
+  state.counters["build_s"] = build;
+  state.counters["field_MB"] = static_cast<double>(balls.bytes()) / 1e6;
+}
+
+void lanes_mesh_sphere(benchmark::State& state, Real g) { lanes_mesh(state, make_sphere_mesh(71), g); }
+void lanes_torus_knot(benchmark::State& state, Real g) { lanes_mesh(state, make_torus_knot(), g); }
+
+const std::vector<std::string> kArgs{"mfp_thousandths", "isa"};
+const std::vector<std::string> kMeshArgs{"mfp_thousandths", "isa", "cells"};
+
+}  // namespace
+
+BENCHMARK_CAPTURE(lanes_sphere, isotropic, Real(0))
+    ->ArgNames(kArgs)
+    ->Args({10, 0})
+    ->Args({10, 1})
+    ->Args({10, 2})
+    ->Args({10, 3})
+    ->Args({100, 3});
+BENCHMARK_CAPTURE(lanes_sphere, g08, Real(0.8))->ArgNames(kArgs)->Args({10, 3});
+BENCHMARK_CAPTURE(lanes_mesh_sphere, isotropic, Real(0))
+    ->ArgNames(kMeshArgs)
+    ->Args({10, 3, 128})
+    ->Args({10, 3, 64});
+BENCHMARK_CAPTURE(lanes_torus_knot, isotropic, Real(0))
+    ->ArgNames(kMeshArgs)
+    ->Args({10, 3, 128})
+    ->Args({10, 3, 64})
+    ->Args({100, 3, 128});
