@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "app/command_line.h"
@@ -116,8 +117,17 @@ void print(const Comparison& comparison, const CompareOptions& options) {
   for (const std::string& line : comparison.warnings) std::fprintf(stderr, "warning: %s\n", line.c_str());
 }
 
+void refuse_overwriting(const CompareOptions& options) {
+  for (const std::string* input : {&options.a, &options.b, &options.mask}) {
+    std::error_code error;
+    if (std::filesystem::equivalent(*input, options.output, error))
+      throw Error(Place{options.output, 0, 0}, "--output would overwrite an input; use another name");
+  }
+}
+
 int run_compare(const CompareOptions& options) {
   if (!options.output.empty()) check_writable(options.output, kOutputs);
+  refuse_overwriting(options);
   const Image a = linear_picture(read_image(options.a), options.a);
   const Image b = linear_picture(read_image(options.b), options.b);
   if (a.width != b.width || a.height != b.height)

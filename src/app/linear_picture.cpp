@@ -16,7 +16,9 @@ int channel_index(const LoadedImage& loaded, std::string_view name) {
   return found == loaded.channels.end() ? -1 : static_cast<int>(found - loaded.channels.begin());
 }
 
+// One sample has no variance: what such a file stores says nothing.
 bool has_variance(const LoadedImage& loaded) {
+  if (find_integer(loaded.attributes, "meander/spp").value_or(2) < 2) return false;
   return std::all_of(kChannels.begin() + 3, kChannels.end(),
                      [&](std::string_view name) { return channel_index(loaded, name) >= 0; });
 }

@@ -1,6 +1,7 @@
 // The verb report: error against time.
 #include <algorithm>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -89,8 +90,19 @@ std::optional<Image8> draw_plot_of(const Report& report) {
   }
 }
 
+// The report's files go by fixed names, and would take the reference's place.
+void refuse_reference_inside(const ReportOptions& options) {
+  if (options.reference.empty()) return;
+  std::error_code error;
+  const auto folder = std::filesystem::absolute(options.reference, error).parent_path();
+  if (std::filesystem::equivalent(folder, options.render.output, error))
+    throw Error(Place{options.reference, 0, 0},
+                "the reference lies in the folder that the report is written into; use another -o");
+}
+
 int run_report(const ReportOptions& options) {
   check_folder(options.render.output);
+  refuse_reference_inside(options);
   Report report;
   report.date = utc_date();
   report.machine = machine_name();

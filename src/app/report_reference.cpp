@@ -1,6 +1,7 @@
 #include "app/report_reference.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/linear_picture.h"
@@ -28,6 +29,16 @@ bool shares_samples(const ImageAttributes& attributes, const Job& job, const Bud
   return own < first + *spp && !ends_before;
 }
 
+void refuse_non_finite(const Image& image, const std::string& path) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < image.channels; ++c)
+        if (const float value = image.at(x, y)[c]; !std::isfinite(value))
+          throw Error(Place{path, 0, 0}, "the reference has the value " + std::to_string(value) +
+                                             " in pixel " + std::to_string(x) + ", " + std::to_string(y) +
+                                             "; all must be finite");
+}
+
 }  // namespace
 
 ReportReference read_reference(const std::string& path, const Job& job, const Budget& budget) {
@@ -44,6 +55,7 @@ ReportReference read_reference(const std::string& path, const Job& job, const Bu
                                        " that the report would draw; use another --seed");
   ReportReference reference;
   reference.image = linear_picture(loaded, path);
+  refuse_non_finite(reference.image, path);
   reference.source = path;
   if (const auto spp = find_integer(loaded.attributes, "meander/spp"))
     reference.source += ", " + std::to_string(*spp) + " samples a pixel";

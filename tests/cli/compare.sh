@@ -86,6 +86,10 @@ value mean_signed_R 4 0.125
 grep -q '^mean_signed .*(variance of A alone)$' out.txt || fail "the variance of A alone is not said"
 ! grep -q relative_noise_b out.txt || fail "noise of an image without variances"
 
+cp a.exr mine.exr
+expect 2 'meander: mine.exr: --output would overwrite an input; use another name' mine.exr b.exr -o mine.exr
+cmp -s a.exr mine.exr || fail "an input was overwritten"
+
 # Every limit by its option: all of them a little beyond the value, then a little short of it. (tests/app tests each
 # alone.)
 expect 0 '' a.pfm b.pfm --max-mae 1 --max-rmse 1.225 --max-relative-rmse 0.613 --max-relmse 0.516 --min-psnr -1.77 \
@@ -254,6 +258,10 @@ for name in bright bright_other; do
   grep -q '^  image  *FAILED' out.txt || fail "$name: the image's mean does not show it: $(cat out.txt)"
   grep -q '^failed: z-test: the whole image is brighter in A, z ' err.txt || fail "$name: says $(cat err.txt)"
 done
+
+# A single sample has no variance.
+"$meander" render "$scene" -o single.exr --spp 1 --width 24 --height 16 --quiet
+expect 2 'meander: single.exr: carries no variance channels, which --z-test needs' single.exr single.exr --z-test
 
 # One noise metric: inside the knot, where every pixel counts, compare's is that of the render's statistics.
 "$meander" render "$scene" -o crop.exr --spp 8 --width 240 --height 135 --crop 110,12,120,20 --stats crop.json --quiet

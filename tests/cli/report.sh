@@ -168,6 +168,13 @@ report=(report ball.toml -o bad --spp 4)
 refuse 'the reference has 24 x 24 pixels, but the report' "${report[@]}" --reference given.exr --width 32
 refuse 'none.exr' "${report[@]}" --reference none.exr
 refuse 'use another --seed' "${report[@]}" --reference given.exr --seed 9
+mkdir inside && cp given.exr inside/implicit.exr
+refuse 'use another -o' report ball.toml -o inside --spp 4 --reference inside/implicit.exr
+cmp -s given.exr inside/implicit.exr || fail "the reference was overwritten"
+python3 -c '
+import struct
+open("nan.pfm", "wb").write(b"PF\n24 24\n-1.0\n" + struct.pack("<f", 1) * 1727 + struct.pack("<f", float("nan")))'
+refuse 'all must be finite' "${report[@]}" --reference nan.pfm
 refuse 'guided' "${report[@]}" --estimators implicit,guided
 refuse 'this machine has' "${report[@]}" --thread-counts 1,1000
 refuse '--reference-spp' "${report[@]}" --reference given.exr --reference-spp 8
