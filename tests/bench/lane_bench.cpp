@@ -4,10 +4,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "bench/entries.h"
 #include "trace/empty_balls.h"
 #include "walk/analytic_worlds.h"
 #include "walk/lane_walks.h"
-#include "walk/lobe.h"
 
 using namespace meander;
 
@@ -77,12 +77,7 @@ LaneModel model_of(benchmark::State& state, Real g) {
 void lanes_sphere(benchmark::State& state, Real g) {
   LaneModel model = model_of(state, g);
   model.region.kind = SafeRegion::Kind::ellipsoid;
-  run_lanes(state, SphereWorld{1}, model, [](Walker& walker, Random& random) {
-    const Real u1 = random.next();
-    const Real u2 = random.next();
-    walker.position = {0, 0, 1};
-    walker.direction = -sample_cosine_hemisphere({u1, u2});
-  });
+  run_lanes(state, SphereWorld{1}, model, enter_sphere);
 }
 
 void lanes_mesh(benchmark::State& state, const Mesh& mesh, Real g) {
@@ -95,19 +90,7 @@ void lanes_mesh(benchmark::State& state, const Mesh& mesh, Real g) {
   LaneModel model = model_of(state, g);
   model.region.kind = SafeRegion::Kind::balls;
   model.region.balls = &balls;
-  run_lanes(state, body, model, [&](Walker& walker, Random& random) {
-    const auto count = static_cast<Real>(mesh.triangles.size());
-    const Triangle& t =
-        mesh.triangles[std::min(static_cast<std::size_t>(random.next() * count), mesh.triangles.size() - 1)];
-    const DVec3& a = mesh.positions[t[0]];
-    const DVec3& b = mesh.positions[t[1]];
-    const DVec3& c = mesh.positions[t[2]];
-    const Vec3 normal(glm::normalize(glm::cross(b - a, c - a)));
-    const Real u1 = random.next();
-    const Real u2 = random.next();
-    walker.position = Vec3((a + b + c) / 3.0 - center) - Real(0x1p-20) * normal;
-    walker.direction = make_lobe(-normal, -normal).sample({u1, u2});
-  });
+  run_lanes(state, body, model, MeshEntry{mesh, center});
   state.counters["build_s"] = build;
   state.counters["field_MB"] = static_cast<double>(balls.bytes()) / 1e6;
 }

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "bench/entries.h"
 #include "trace/mesh_body.h"
 #include "walk/analytic_worlds.h"
-#include "walk/lobe.h"
 #include "walk/random_walk.h"
 
 using namespace meander;
@@ -48,32 +48,13 @@ void run_walks(benchmark::State& state, const W& world, Real g, const Start& sta
   state.counters["standard_error"] = std::sqrt((squares / walk - mean * mean) / walk);
 }
 
-void sphere(benchmark::State& state, Real g) {
-  run_walks(state, SphereWorld{1}, g, [](Walker& walker, Random& random) {
-    const Real u1 = random.next();
-    const Real u2 = random.next();
-    walker.position = {0, 0, 1};
-    walker.direction = -sample_cosine_hemisphere({u1, u2});
-  });
-}
+void sphere(benchmark::State& state, Real g) { run_walks(state, SphereWorld{1}, g, enter_sphere); }
 
 void mesh(benchmark::State& state, const Mesh& mesh, Real g) {
   const Device device = make_device(1);
   DVec3 center;
   const MeshBody body(device.get(), mesh, DMat3(1), center);
-  run_walks(state, body, g, [&](Walker& walker, Random& random) {
-    const auto count = static_cast<Real>(mesh.triangles.size());
-    const Triangle& t =
-        mesh.triangles[std::min(static_cast<std::size_t>(random.next() * count), mesh.triangles.size() - 1)];
-    const DVec3& a = mesh.positions[t[0]];
-    const DVec3& b = mesh.positions[t[1]];
-    const DVec3& c = mesh.positions[t[2]];
-    const Vec3 normal(glm::normalize(glm::cross(b - a, c - a)));
-    const Real u1 = random.next();
-    const Real u2 = random.next();
-    walker.position = Vec3((a + b + c) / 3.0 - center) - Real(0x1p-20) * normal;
-    walker.direction = make_lobe(-normal, -normal).sample({u1, u2});
-  });
+  run_walks(state, body, g, MeshEntry{mesh, center});
 }
 
 void mesh_sphere(benchmark::State& state, Real g) {

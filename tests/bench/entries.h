@@ -1,0 +1,41 @@
+// Where the benchmarks' walks enter: the same for the scalar walk and for the lanes.
+#pragma once
+
+#include <algorithm>
+
+#include "math/warp.h"
+#include "scene/mesh.h"
+#include "walk/lobe.h"
+#include "walk/random_walk.h"
+
+namespace meander {
+
+/// Diffusely through the pole of the unit sphere.
+inline void enter_sphere(Walker& walker, Random& random) noexcept {
+  const Real u1 = random.next();
+  const Real u2 = random.next();
+  walker.position = {0, 0, 1};
+  walker.direction = -sample_cosine_hemisphere({u1, u2});
+}
+
+/// Diffusely through the middle of any triangle of a mesh whose body is centred on `center`.
+struct MeshEntry {
+  const Mesh& mesh;
+  DVec3 center;
+
+  void operator()(Walker& walker, Random& random) const noexcept {
+    const auto count = static_cast<Real>(mesh.triangles.size());
+    const Triangle& t =
+        mesh.triangles[std::min(static_cast<std::size_t>(random.next() * count), mesh.triangles.size() - 1)];
+    const DVec3& a = mesh.positions[t[0]];
+    const DVec3& b = mesh.positions[t[1]];
+    const DVec3& c = mesh.positions[t[2]];
+    const Vec3 normal(glm::normalize(glm::cross(b - a, c - a)));
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    walker.position = Vec3((a + b + c) / 3.0 - center) - Real(0x1p-20) * normal;
+    walker.direction = make_lobe(-normal, -normal).sample({u1, u2});
+  }
+};
+
+}  // namespace meander
