@@ -7,6 +7,7 @@
 #include "app/command_line.h"
 #include "app/interrupt.h"
 #include "app/measure_report.h"
+#include "app/render_options.h"
 #include "core/error.h"
 #include "render/parallel.h"
 
@@ -37,6 +38,8 @@ struct MeasureOptions {
   std::uint64_t walks = 1'000'000;
   std::uint64_t seed = 0;
   int threads = 0;
+  std::string walk = "batch";
+  std::string isa;
   bool json = false;
   bool csv = false;
 };
@@ -185,6 +188,8 @@ std::vector<MeasureJob> jobs_of(const MeasureOptions& o) {
   job.roughness = o.roughness;
   job.incidence = parse_incidence(o.incidence.empty() && o.color ? "diffuse" : o.incidence);
   job.estimator = o.estimator == "analog" ? Estimator::analog : Estimator::implicit;
+  job.walk = walk_code(o.walk);
+  job.instruction_set = instruction_set_of(o.isa);
   job.walks = o.walks;
   job.seed = o.seed;
   job.threads = o.threads > 0 ? o.threads : hardware_threads();
@@ -292,6 +297,7 @@ void add_measure_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 50));
   verb->add_option("--seed", o->seed, "random seed (0)")->check(whole_number());
   verb->add_option("--threads", o->threads, "threads (all)")->check(CLI::Range(1, 1024));
+  add_walk_options(*verb, o->walk, o->isa);
   verb->add_flag("--json", o->json, "print JSON");
   verb->add_flag("--csv", o->csv, "print CSV: the bins where there are any");
   verb->callback([o, &action] { action = [o] { return run_measure(*o); }; });

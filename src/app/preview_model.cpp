@@ -147,7 +147,7 @@ StatisticsModel statistics_model(const PreviewState& state, const ModelInputs& i
   model.estimator = state.settings.estimator == Estimator::analog ? "analog" : "implicit";
   const auto& frame = inputs.pictures.newest();
   if (!frame) return model;
-  model.kernel = describe_model(*frame->scene);
+  model.kernel = describe_media(*frame->scene);
   if (inputs.pointed)
     model.pixel = read_pixel(*frame, state.scene->film, *inputs.pointed, state.scene->millimetres_per_unit);
   model.rectangle = rectangle_reading(state, *frame);

@@ -9,6 +9,7 @@
 #include "app/edit_history.h"
 #include "display/views.h"
 #include "film/plan.h"
+#include "render/progressive.h"
 #include "scene/scene.h"
 #include "ui/models.h"
 #include "walk/random_walk.h"
@@ -21,6 +22,8 @@ struct PreviewSettings {
   int threads = 1;
   std::uint64_t seed = 0;
   Estimator estimator = Estimator::implicit;
+  WalkCode walk = WalkCode::batch;
+  InstructionSet instruction_set = instruction_sets().back();
   Budget budget;
   bool region_only = false;
 };

@@ -81,6 +81,8 @@ void Previewer::submit(bool interactive) {
   request.budget = state_.settings.budget;
   request.seed = state_.settings.seed;
   request.estimator = state_.settings.estimator;
+  request.walk = state_.settings.walk;
+  request.instruction_set = state_.settings.instruction_set;
   request.interactive = interactive;
   generation_ = session_->submit(std::move(request));
   interactive_ = interactive;

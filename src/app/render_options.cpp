@@ -62,12 +62,31 @@ Job make_job(const RenderOptions& options, Scene scene) {
   job.seed = options.seed;
   job.first_sample = options.first_sample;
   job.estimator = options.estimator == "analog" ? Estimator::analog : Estimator::implicit;
+  job.walk = walk_code(options.walk);
+  job.instruction_set = instruction_set_of(options.isa);
   job.scene = std::make_shared<const Scene>(std::move(scene));
   job.geometry = std::make_shared<const Geometry>(*job.scene, job.threads);
   return job;
 }
 
 }  // namespace
+
+WalkCode walk_code(std::string_view name) noexcept {
+  return name == "scalar" ? WalkCode::scalar : WalkCode::batch;
+}
+
+InstructionSet instruction_set_of(std::string_view name) noexcept {
+  return instruction_set(name).value_or(instruction_sets().back());
+}
+
+void add_walk_options(CLI::App& verb, std::string& walk, std::string& isa) {
+  verb.add_option("--walk", walk, "scalar or batch: one walk at a time, or lanes of SIMD (batch)")
+      ->check(CLI::IsMember({"scalar", "batch"}));
+  std::vector<std::string> names;
+  for (const InstructionSet set : instruction_sets()) names.emplace_back(name_of(set));
+  verb.add_option("--isa", isa, "instruction set of the batch walk (the best of this machine)")
+      ->check(CLI::IsMember(names));
+}
 
 void add_budget_options(CLI::App& verb, RenderOptions& o) {
   verb.add_option("--spp", o.spp, "samples a pixel at which the image is done")
@@ -83,6 +102,7 @@ void add_budget_options(CLI::App& verb, RenderOptions& o) {
   verb.add_option("--height", o.height, "film height, pixels")->check(CLI::Range(1, 16384));
   verb.add_option("--estimator", o.estimator, "analog or implicit (implicit)")
       ->check(CLI::IsMember({"analog", "implicit"}));
+  add_walk_options(verb, o.walk, o.isa);
   verb.add_option("--set", o.edits, "PATH=VALUE: any scene value, such as material.wax.g=0.4 (repeatable)")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -114,6 +134,8 @@ PreviewSettings preview_settings(const RenderOptions& options) {
   settings.threads = options.threads > 0 ? std::min(options.threads, hardware_threads()) : hardware_threads();
   settings.seed = options.seed;
   settings.estimator = options.estimator == "analog" ? Estimator::analog : Estimator::implicit;
+  settings.walk = walk_code(options.walk);
+  settings.instruction_set = instruction_set_of(options.isa);
   settings.budget = {options.spp, options.seconds, options.error};
   return settings;
 }

@@ -27,12 +27,19 @@ struct RenderOptions {
   std::optional<int> height;
   std::vector<int> crop;
   std::string estimator = "implicit";
+  std::string walk = "batch";
+  std::string isa;  // empty: the best that the machine has
   std::string stats;
   bool quiet = false;
 };
 
 /// Declares what ends an image, its size and its edits, which all verbs that trace share.
 void add_budget_options(CLI::App& verb, RenderOptions& options);
+
+/// Declares --walk and --isa; and what they mean, once they have been checked.
+void add_walk_options(CLI::App& verb, std::string& walk, std::string& isa);
+[[nodiscard]] WalkCode walk_code(std::string_view name) noexcept;
+[[nodiscard]] InstructionSet instruction_set_of(std::string_view name) noexcept;
 
 /// The edits, and the film's size as further ones.
 [[nodiscard]] std::vector<std::string> all_edits(const RenderOptions& options);

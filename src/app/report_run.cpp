@@ -119,7 +119,7 @@ void make_runs(Report& report, const ReportPlan& plan, const std::atomic<bool>& 
       job.threads = threads;
       ReportRun run;
       run.estimator = estimator;
-      run.walk = describe_model(*job.scene);
+      run.walk = describe_model(job);
       run.threads = threads;
       if (!plan.quiet)
         std::fprintf(stderr, "%s, %d thread%s\n", std::string(estimator_name(estimator)).c_str(), threads,

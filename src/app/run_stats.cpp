@@ -32,7 +32,7 @@ std::string stats_json(const Job& job, const Rendering& rendering, const char* e
   stats["seed"] = job.seed;
   stats["first_sample"] = job.first_sample;
   stats["threads"] = job.threads;
-  stats["isa"] = "baseline";
+  stats["isa"] = job.walk == WalkCode::batch ? name_of(job.instruction_set) : "baseline";
   stats["width"] = rendering.film.width;
   stats["height"] = rendering.film.height;
   stats["spp"] = rendering.spp;
@@ -50,7 +50,7 @@ std::string stats_json(const Job& job, const Rendering& rendering, const char* e
   stats["leaked_walks"] = counters.leaked_walks;
   stats["non_finite"] = rendering.non_finite;
   stats["peak_memory_bytes"] = peak_memory_bytes();
-  stats["model"] = describe_model(*job.scene);
+  stats["model"] = describe_model(job);
   stats["estimator"] = job.estimator == Estimator::analog ? "analog" : "implicit";
   return stats.dump(2) + "\n";
 }

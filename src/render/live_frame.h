@@ -18,6 +18,8 @@ struct SessionRequest {
   Budget budget;
   std::uint64_t seed = 0;
   Estimator estimator = Estimator::implicit;
+  WalkCode walk = WalkCode::batch;
+  InstructionSet instruction_set = instruction_sets().back();
   bool interactive = false;  // under a drag: coarse images alone, 20 and more of them a second
 };
 

@@ -52,6 +52,8 @@ LiveImage::LiveImage(SessionRequest request, LiveStock& stock) : stock_(stock), 
   job_.crop = request_.region;
   job_.seed = request_.seed;
   job_.estimator = request_.estimator;
+  job_.walk = request_.walk;
+  job_.instruction_set = request_.instruction_set;
   job_.threads = stock_.threads;
   job_.priority = Priority::background;
   pixels_ = pixel_count(area_of(job_));
@@ -81,6 +83,7 @@ std::shared_ptr<LiveFrame> LiveImage::render_coarse(const std::atomic<bool>& sto
   const Timer timer;
   Job job = job_;
   job.scale = scale_;
+  if (!job.geometry->is_finished()) job.walk = WalkCode::scalar;  // rather than wait
   Rendering film;
   auto frame = std::make_shared<LiveFrame>();
   const double pixels = pixels_ / (scale_ * scale_);
@@ -147,7 +150,7 @@ bool LiveImage::find_first_hits(const std::atomic<bool>& stop) {
 }
 
 std::shared_ptr<LiveFrame> LiveImage::render_pass(const std::atomic<bool>& stop) {
-  if (!find_first_hits(stop)) return nullptr;
+  if (!find_first_hits(stop) || !prepare_walks(job_, stop)) return nullptr;
   if (const std::uint64_t samples = next_samples(); samples > 0) {
     const Timer timer;
     const Rendering nothing;

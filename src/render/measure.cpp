@@ -3,250 +3,127 @@
 #include <vector>
 
 #include "core/timer.h"
-#include "math/fresnel.h"
+#include "render/measured_walk.h"
 #include "render/parallel.h"
-#include "walk/analytic_worlds.h"
-#include "walk/interface.h"
-#include "walk/rough_interface.h"
+#include "walk/lane_walks.h"
 
 namespace meander {
 namespace {
 
 constexpr std::uint64_t kBlock = 8192;  // walks a task; fixed, so that sums do not depend on the threads
 
-// One walk from the surface at z = `top` and what it leaves where; the first channel counts, all three are
-// alike.
-template <World W>
-class MeasuredWalk {
- public:
-  MeasuredWalk(const MeasureJob& job, const W& world, Real top, Measurement& result,
-               const std::atomic<bool>& stop)
-      : job_(job), world_(world), top_(top), result_(result), stop_(stop) {}
+// Walks of a block, in the order in which they are begun.
+struct BlockWalks {
+  const MeasureJob& job;
+  std::uint64_t next;
+  std::uint64_t last;
 
-  // False when it was interrupted, and nothing was counted.
-  [[nodiscard]] bool run(Random& random) {
-    Tallied tallied;
-    tallied_ = &tallied;
-    walker_ = Walker{};
-    walker_.position = {0, 0, top_};
-    if (enter(random) && !travel(random)) return false;
-    record(tallied);
+  [[nodiscard]] bool draw(Random& random) noexcept {
+    if (next == last) return false;
+    random = stream(job.seed, static_cast<std::uint32_t>(next >> 32), static_cast<std::uint32_t>(next));
+    ++next;
     return true;
   }
+};
 
-  // What the walk reports as it goes.
-  void segment(const Walker& walker, Real distance) {
-    const double weight = double{walker.weight.carried().x};
-    tallied_->path += weight * double{distance};
-    if (job_.bins.depth > 0)
-      spread(double{walker.position.z}, double{walker.direction.z}, double{distance}, weight);
-  }
-  void absorbed(const Rgb& amount) {
-    tallied_->absorptance += double{amount.x};
-    if (job_.bins.depth > 0)
-      result_.resolved.absorbed_depth.add(
-          bin_of(depth_at(walker_.position.z), job_.bins.depth, job_.bins.max_depth), double{amount.x});
-  }
-  void scattered(const Walker&) const noexcept {}
-  [[nodiscard]] bool stop() const noexcept { return stop_.load(std::memory_order_relaxed); }
+// Walks of a block in lanes. They end in an order that depends on the block alone.
+struct BlockLanes {
+  BlockWalks& block;
+  const std::atomic<bool>& stopped;
+  std::vector<MeasuredWalk> walks;  // by lane
 
- private:
-  // One walk's share of each quantity.
-  struct Tallied {
-    double reflected = 0, transmitted = 0, direct_reflected = 0, direct_transmitted = 0, specular = 0;
-    double absorptance = 0, path = 0;
-    double reflected_path = 0, transmitted_path = 0;  // weight times path length
-  };
-
-  [[nodiscard]] double depth_at(Real z) const noexcept { return double{top_} - double{z}; }
-  [[nodiscard]] bool analog() const noexcept { return job_.estimator == Estimator::analog; }
-
-  // Lets the light in through the surface; false when all of it was mirrored.
-  [[nodiscard]] bool enter(Random& random) {
-    const double mu = job_.incidence.diffuse ? std::sqrt(1 - double{random.next()}) : job_.incidence.cosine;
-    const auto cosine = static_cast<Real>(mu);
-    if (job_.roughness > 0) return enter_rough(cosine, random);
-    const auto ior = static_cast<Real>(job_.ior);
-    const Fresnel fresnel = job_.ior == 1 ? Fresnel{0, cosine} : eval_fresnel(cosine, ior);
-    if (analog()) {
-      if (random.next() < fresnel.reflectance) {
-        tallied_->specular = 1;
-        return false;
+  [[nodiscard]] bool start(int lane, Walker& walker, Random& random) {
+    MeasuredWalk& walk = walks[static_cast<std::size_t>(lane)];
+    while (block.draw(random)) {
+      if (walk.begin(random)) {
+        walker = walk.walker();
+        return true;
       }
-    } else {
-      tallied_->specular = double{fresnel.reflectance};
-      walker_.weight.throughput = Rgb(1 - fresnel.reflectance);
+      walk.record();
     }
-    if (job_.boundary == Boundary::diffuse)
-      send_inward({0, 0, 1}, random);
-    else
-      walker_.direction = {std::sqrt((1 - fresnel.cos_t) * (1 + fresnel.cos_t)), 0, -fresnel.cos_t};
-    return true;
-  }
-
-  // What arrives along the walker's direction, whole: a rough interface decides by chance, with any
-  // estimator.
-  [[nodiscard]] RoughInterface::Sample meet_rough(const Vec3& normal, Random& random) {
-    const RoughDielectric surface{ggx_alpha(static_cast<Real>(job_.roughness)), static_cast<Real>(job_.ior)};
-    const RoughInterface::Sample sample =
-        RoughInterface(normal, normal, surface, walker_.direction).sample(random);
-    walker_.direction = sample.direction;
-    return sample;
-  }
-
-  [[nodiscard]] bool enter_rough(Real cosine, Random& random) {
-    walker_.direction = {std::sqrt((1 - cosine) * (1 + cosine)), 0, -cosine};
-    if (!meet_rough({0, 0, 1}, random).outside) return true;
-    tallied_->specular = 1;
     return false;
   }
-
-  void send_inward(const Vec3& normal, Random& random) {
-    const Real u1 = random.next();
-    const Real u2 = random.next();
-    walker_.direction = renormalise(make_frame(-normal).to_world(sample_cosine_hemisphere({u1, u2})));
-  }
-
-  // Walks until nothing is left inside; false when interrupted.
-  [[nodiscard]] bool travel(Random& random) {
-    const WalkModel model{{Rgb(1), Rgb(static_cast<Real>(job_.albedo)), static_cast<Real>(job_.g)},
-                          job_.estimator};
-    for (;;) {
-      const WalkResult walk = random_walk(world_, model, walker_, random, *this);
-      if (walk.end == WalkEnd::interrupted) return false;
-      result_.leaked_walks += walk.end == WalkEnd::leaked;
-      if (walk.end != WalkEnd::exited || !stays(walk.crossing, random)) return true;
+  [[nodiscard]] bool end(int lane, const WalkResult& walked, Walker& walker, Random& random) {
+    MeasuredWalk& walk = walks[static_cast<std::size_t>(lane)];
+    if (walk.end(walked, walker, random)) {
+      walker = walk.walker();
+      return true;
     }
+    walk.record();
+    return start(lane, walker, random);
   }
-
-  // At the surface from inside: lets out what gets out; true when some goes on inside.
-  [[nodiscard]] bool stays(const Crossing& exit, Random& random) {
-    const Vec3& n = exit.normal;
-    if (job_.roughness > 0) {
-      const bool outside = meet_rough(n, random).outside;
-      if (outside) let_out(exit, 1, glm::dot(walker_.direction, n));
-      return !outside;
-    }
-    const bool diffuse = job_.boundary == Boundary::diffuse;
-    Real cosine = std::min(glm::dot(walker_.direction, n), Real(1));
-    if (diffuse) cosine = std::sqrt(1 - random.next());
-    const Fresnel fresnel =
-        job_.ior == 1 ? Fresnel{0, cosine} : eval_fresnel(cosine, static_cast<Real>(1 / job_.ior));
-    if (analog()) {
-      const bool reflected = random.next() < fresnel.reflectance;
-      if (!reflected) let_out(exit, 1, fresnel.cos_t);
-      if (!reflected) return false;
-    } else {
-      let_out(exit, 1 - fresnel.reflectance, fresnel.cos_t);
-      walker_.weight.throughput *= fresnel.reflectance;
-      if (fresnel.reflectance == 0 || !walker_.weight.survives_roulette(random, kRouletteThreshold))
-        return false;
-    }
-    if (diffuse)
-      send_inward(n, random);
-    else
-      walker_.direction = lift_off(renormalise(walker_.direction - 2 * cosine * n), -n);
-    return true;
+  void collided(int, Walker&, Random&) const noexcept {}
+  void tally(int lane, Real path, Real absorbed) noexcept {
+    walks[static_cast<std::size_t>(lane)].tally(double{path}, double{absorbed});
   }
+  [[nodiscard]] bool stop() const noexcept { return stopped.load(std::memory_order_relaxed); }
+};
 
-  void let_out(const Crossing& exit, Real fraction, Real cosine) {
-    const double weight = double{walker_.weight.carried().x * fraction};
-    if (weight == 0) return;
-    const bool back = std::holds_alternative<MeasuredSphere>(job_.shape) || exit.normal.z > 0;
-    const bool direct = walker_.weight.order == 0;
-    const double path = double{walker_.weight.length};
-    Tallied& t = *tallied_;
-    (back ? t.reflected : t.transmitted) += weight;
-    if (direct) {
-      const bool as_reflected = back && !std::holds_alternative<MeasuredSphere>(job_.shape);
-      (as_reflected ? t.direct_reflected : t.direct_transmitted) += weight;
-    }
-    (back ? t.reflected_path : t.transmitted_path) += weight * path;
-    ResolvedBins& bins = result_.resolved;
-    const BinOptions& o = job_.bins;
-    if (o.angular > 0 && !direct)
-      (back ? bins.reflected_angle : bins.transmitted_angle)
-          .add(std::min(static_cast<int>(double{cosine} * o.angular), o.angular - 1), weight);
-    if (o.radial > 0)
-      (back ? bins.reflected_radius : bins.transmitted_radius)
-          .add(bin_of(std::hypot(double{exit.point.x}, double{exit.point.y}), o.radial, o.radius), weight);
-    if (o.path > 0)
-      (back ? bins.reflected_path : bins.transmitted_path).add(bin_of(path, o.path, o.max_path), weight);
-  }
+// Per-walk sums over bins are made one walk at a time.
+bool in_lanes(const MeasureJob& job) noexcept {
+  return job.walk == WalkCode::batch && job.estimator == Estimator::implicit && !job.bins.any();
+}
 
-  // Shares a flown segment out over the depth bins that it passes.
-  void spread(double z, double dz, double distance, double weight) {
-    const int count = job_.bins.depth;
-    const double width = job_.bins.max_depth / count;
-    const double from = depth_at(static_cast<Real>(z));
-    const double to = from - dz * distance;
-    const double low = std::min(from, to);
-    const double high = std::max(from, to);
-    const int first = bin_of(std::max(low, 0.0), count, job_.bins.max_depth);
-    const int last = bin_of(std::max(high, 0.0), count, job_.bins.max_depth);
-    if (first == last) {
-      result_.resolved.fluence.add(first, weight * distance);
-      return;
-    }
-    for (int bin = first; bin <= last; ++bin) {
-      const double begin = bin == first ? low : bin * width;
-      const double end = bin == last ? high : (bin + 1) * width;
-      result_.resolved.fluence.add(bin, weight * distance * (end - begin) / (high - low));
-    }
-  }
-
-  void record(const Tallied& t) {
-    const bool sphere = std::holds_alternative<MeasuredSphere>(job_.shape);
-    result_.reflectance.add(t.reflected + t.specular);
-    result_.transmittance.add(t.transmitted);
-    result_.unscattered_reflectance.add(sphere ? t.specular : t.direct_reflected + t.specular);
-    result_.unscattered_transmittance.add(t.direct_transmitted);
-    result_.specular_reflectance.add(t.specular);
-    result_.absorptance.add(t.absorptance);
-    result_.mean_path_length.add(t.path);
-    result_.from_below.add(t.reflected, 1 - t.specular);
-    result_.resolved.mean_path_reflected.add(t.reflected_path, t.reflected);
-    result_.resolved.mean_path_transmitted.add(t.transmitted_path, t.transmitted);
-    result_.resolved.end_walk();
-    result_.walks += 1;
-    result_.steps += walker_.steps;
-  }
-
-  const MeasureJob& job_;
-  const W& world_;
-  Real top_;
-  Measurement& result_;
-  const std::atomic<bool>& stop_;
-  Walker walker_;
-  Tallied* tallied_ = nullptr;
+// A shape to measure: its world, the same as a region of space, and where the light enters.
+template <World W>
+struct Shape {
+  W world;
+  SafeRegion region;
+  Real top = 0;
 };
 
 // A block of walks; fewer than asked for when it was interrupted.
 template <World W>
-Measurement measure_block(const MeasureJob& job, const W& world, Real top, std::uint64_t first,
+Measurement measure_block(const MeasureJob& job, const Shape<W>& shape, BlockWalks block,
                           const std::atomic<bool>& stop) {
   Measurement result;
   result.resolved = ResolvedBins(job.bins);
-  MeasuredWalk<W> measured(job, world, top, result, stop);
-  const std::uint64_t last = std::min(first + kBlock, job.walks);
-  for (std::uint64_t walk = first; walk < last; ++walk) {
-    if (stop.load(std::memory_order_relaxed)) break;
-    Random random =
-        stream(job.seed, static_cast<std::uint32_t>(walk >> 32), static_cast<std::uint32_t>(walk));
-    if (!measured.run(random)) break;
+  MeasuredWalk walk(job, shape.top, result, stop);
+  if (in_lanes(job)) {
+    const LaneModel model{measured_medium(job), shape.region, false, true};
+    BlockLanes lanes{block, stop, std::vector<MeasuredWalk>(kLanes, walk)};
+    (void)LaneWalks(job.instruction_set, shape.world, model, lanes).run();
+    return result;
+  }
+  Random random({1, 0, 0, 0});
+  while (!stop.load(std::memory_order_relaxed) && block.draw(random)) {
+    if (walk.begin(random) && !walk.travel(shape.world, random)) break;
+    walk.record();
   }
   return result;
 }
 
-Measurement measure_block(const MeasureJob& job, std::uint64_t first,
-                          const std::atomic<bool>& stop) noexcept {
-  if (const auto* slab = std::get_if<MeasuredSlab>(&job.shape))
-    return measure_block(job, SlabWorld{static_cast<Real>(slab->tau)}, 0, first, stop);
-  if (const auto* sphere = std::get_if<MeasuredSphere>(&job.shape)) {
-    const Real radius = static_cast<Real>(sphere->tau_radius);
-    return measure_block(job, SphereWorld{radius}, radius, first, stop);
+// -thickness <= z <= 0.
+SafeRegion layer(float thickness) noexcept {
+  constexpr float kEndless = std::numeric_limits<float>::infinity();
+  SafeRegion region;
+  for (int axis = 0; axis < 3; ++axis) {
+    region.low[axis] = axis == 2 ? -thickness : -kEndless;
+    region.high[axis] = axis == 2 ? 0 : kEndless;
   }
-  return measure_block(job, HalfSpaceWorld{}, 0, first, stop);
+  return region;
+}
+
+SafeRegion ball(float radius) noexcept {
+  SafeRegion region;
+  region.kind = SafeRegion::Kind::ellipsoid;
+  for (int axis = 0; axis < 3; ++axis) region.map[axis][axis] = 1 / radius;
+  return region;
+}
+
+Measurement measure_block(const MeasureJob& job, std::uint64_t first, const std::atomic<bool>& stop) {
+  const BlockWalks block{job, first, std::min(first + kBlock, job.walks)};
+  if (const auto* slab = std::get_if<MeasuredSlab>(&job.shape)) {
+    const auto tau = static_cast<Real>(slab->tau);
+    return measure_block(job, Shape<SlabWorld>{{tau}, layer(static_cast<float>(tau))}, block, stop);
+  }
+  if (const auto* sphere = std::get_if<MeasuredSphere>(&job.shape)) {
+    const auto radius = static_cast<Real>(sphere->tau_radius);
+    return measure_block(job, Shape<SphereWorld>{{radius}, ball(static_cast<float>(radius)), radius}, block,
+                         stop);
+  }
+  constexpr float kEndless = std::numeric_limits<float>::infinity();
+  return measure_block(job, Shape<HalfSpaceWorld>{{}, layer(kEndless)}, block, stop);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "render/measure_bins.h"
 #include "scene/scene.h"
 #include "stats/moments.h"
-#include "walk/random_walk.h"
+#include "walk/lanes.h"
 
 namespace meander {
 
@@ -38,7 +38,9 @@ struct MeasureJob {
   std::uint64_t walks = 1'000'000;
   std::uint64_t seed = 0;
   int threads = 1;
-  BinOptions bins;
+  BinOptions bins;  // where there are any, walks are scalar
+  WalkCode walk = WalkCode::batch;
+  InstructionSet instruction_set = instruction_sets().back();
 };
 
 /// Per incident flux, as the mean over the walks; totals include the unscattered part. For the sphere,

@@ -17,6 +17,8 @@ struct BinOptions {
   double max_depth = 10;
   int path = 0;  // over the path length inside, [0, max_path)
   double max_path = 50;
+
+  [[nodiscard]] bool any() const noexcept { return angular > 0 || radial > 0 || depth > 0 || path > 0; }
 };
 
 /// Sums over walks of what falls into each of a row of bins. A walk may fall into a bin several times: its

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/timer.h"
-#include "math/color.h"
 #include "render/first_hits.h"
+#include "render/tile_pass.h"
 
 namespace meander {
 namespace {
@@ -19,80 +19,18 @@ bool is_chromatic(const Scene& scene) {
   return false;
 }
 
-// Small images in small tiles, so that no thread is left waiting for another's last one.
-int tile_size(const Tile& area) noexcept {
+// Tiles for a pass: small images in small ones, so that no thread is left waiting for another's last one;
+// larger ones where a tile of the usual size has too few samples to keep the lanes full.
+int tile_size(const Tile& area, std::uint64_t samples, bool lanes) noexcept {
+  constexpr std::uint64_t kFullLanes = 16384;
   const auto pixels = std::int64_t{area.x1 - area.x0} * (area.y1 - area.y0);
+  const auto fits = [&](int size, int tiles) { return pixels >= std::int64_t{tiles} * size * size; };
   int size = kTileSize;
-  while (size > 4 && pixels < std::int64_t{64} * size * size) size /= 2;
+  while (size > 4 && !fits(size, 64)) size /= 2;
+  const auto is_full = [&] { return static_cast<std::uint64_t>(size) * size * samples >= kFullLanes; };
+  while (lanes && !is_full() && fits(2 * size, 32)) size *= 2;
   return size;
 }
-
-// What one sample of a pixel finds: its radiance, and what paths the light took.
-struct SampleSink {
-  Rgb radiance{0};
-  PathSums paths;
-
-  void add(const Contribution& contribution) noexcept {
-    const Rgb value = contribution.value();
-    radiance += value;
-    const double weight = luminance(value);
-    paths += {weight, weight * contribution.order, weight * double{contribution.length}};
-  }
-};
-
-// What one tile adds to the statistics of a pass.
-struct TileResult {
-  PathCounters counters;
-  std::uint64_t non_finite = 0;
-  bool complete = false;
-};
-
-// One pass over the image: reads one film, writes another.
-struct Pass {
-  const Job& job;
-  const CameraRays& camera;
-  Tile area;
-  PathOptions options;
-  std::uint64_t samples;
-  const Rendering& before;  // its film counts for nothing while it has no samples
-  Film& after;
-
-  [[nodiscard]] TileResult render_tile(const Tile& tile) const {
-    TileResult result;
-    PathTracer<Geometry> tracer(*job.scene, *job.geometry, options);
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        Pixel pixel = before.spp > 0 ? before.film.at(x, y) : Pixel{};
-        if (!render_pixel(x, y, tracer, pixel, result)) return result;
-        after.at(x, y) = pixel;
-      }
-    }
-    result.counters = tracer.counters();
-    result.complete = true;
-    return result;
-  }
-
-  [[nodiscard]] bool render_pixel(int x, int y, PathTracer<Geometry>& tracer, Pixel& pixel,
-                                  TileResult& result) const {
-    const int image_x = area.x0 + x;
-    const int image_y = area.y0 + y;
-    if (options.stop->load(std::memory_order_relaxed)) return false;
-    for (std::uint64_t k = 0; k < samples; ++k) {
-      Random random = sample_stream(job, image_x, image_y, before.spp + k);
-      const double u = random.next();
-      const double v = random.next();
-      SampleSink sink;
-      if (!tracer.trace(film_ray(job, camera, image_x + u, image_y + v), random, sink)) return false;
-      const bool finite = std::isfinite(sink.radiance.x + sink.radiance.y + sink.radiance.z);
-      pixel.add(finite ? sink.radiance : Rgb(0));
-      if (finite)
-        pixel.paths += sink.paths;
-      else
-        ++result.non_finite;
-    }
-    return true;
-  }
-};
 
 }  // namespace
 
@@ -127,23 +65,28 @@ std::uint64_t film_bytes(const Job& job) {
          static_cast<std::uint64_t>(area.y1 - area.y0);
 }
 
+bool uses_lanes(const Job& job) noexcept {
+  return job.walk == WalkCode::batch && job.estimator == Estimator::implicit;
+}
+
+bool prepare_walks(const Job& job, const std::atomic<bool>& stop) {
+  return !uses_lanes(job) || job.geometry->finish(stop);
+}
+
 Passes::Passes(const Job& job, const std::atomic<bool>& stop)
-    : job_(job),
-      stop_(stop),
-      camera_(camera_of(job)),
-      area_(area_of(job)),
-      tiles_(make_tiles(area_.x1 - area_.x0, area_.y1 - area_.y0, {}, tile_size(area_))) {}
+    : job_(job), stop_(stop), camera_(camera_of(job)), area_(area_of(job)) {}
 
 bool Passes::advance(const Rendering& before, std::uint64_t samples, Rendering& after) const {
+  if (!prepare_walks(job_, stop_)) return false;
   const int width = area_.x1 - area_.x0;
   const int height = area_.y1 - area_.y0;
   if (after.film.width != width || after.film.height != height) after.film = Film(width, height);
-  const PathOptions options = path_options(job_, stop_);
-  const Pass pass{job_, camera_, area_, options, samples, before, after.film};
-  std::vector<TileResult> results(tiles_.size());
+  const bool lanes = uses_lanes(job_);
+  const TilePass pass{job_, camera_, area_, path_options(job_, stop_), samples, before, after.film, lanes};
+  const std::vector<Tile> tiles = make_tiles(width, height, {}, tile_size(area_, samples, lanes));
+  std::vector<TileResult> results(tiles.size());
   parallel_for(
-      job_.threads, tiles_.size(), [&](std::size_t i) { results[i] = pass.render_tile(tiles_[i]); },
-      job_.priority);
+      job_.threads, tiles.size(), [&](std::size_t i) { results[i] = pass.render(tiles[i]); }, job_.priority);
   after.spp = before.spp + samples;
   after.counters = before.counters;
   after.non_finite = before.non_finite;
@@ -163,6 +106,7 @@ Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& 
   Rendering done;
   done.film = Film(area.x1 - area.x0, area.y1 - area.y0);
   Rendering next = done;
+  if (!prepare_walks(job, stop)) return done;
   const Timer timer;
   for (;;) {
     const std::uint64_t samples = next_pass(progress_of(done), budget);
@@ -174,7 +118,7 @@ Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& 
   }
 }
 
-std::string describe_model(const Scene& scene) {
+std::string describe_media(const Scene& scene) {
   bool anisotropic = false;
   bool matched = false;
   bool diffuse = false;
@@ -193,7 +137,11 @@ std::string describe_model(const Scene& scene) {
   if (matched) text += " matched";
   if (diffuse) text += " diffuse";
   if (dielectric) text += " dielectric";
-  return "scalar " + text;
+  return text;
+}
+
+std::string describe_model(const Job& job) {
+  return (uses_lanes(job) ? "batch " : "scalar ") + describe_media(*job.scene);
 }
 
 }  // namespace meander

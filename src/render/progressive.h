@@ -13,6 +13,7 @@
 #include "film/tiles.h"
 #include "render/parallel.h"
 #include "trace/geometry.h"
+#include "walk/lanes.h"
 #include "walk/path.h"
 
 namespace meander {
@@ -29,6 +30,8 @@ struct Job {
   int threads = 1;
   int scale = 1;  // a power of two: one pixel of the job stands for scale x scale pixels of the scene's film
   Priority priority = Priority::normal;
+  WalkCode walk = WalkCode::batch;
+  InstructionSet instruction_set = instruction_sets().back();  // of the batch; one set, one result
 };
 
 struct Rendering {
@@ -75,7 +78,6 @@ class Passes {
   const std::atomic<bool>& stop_;
   CameraRays camera_;
   Tile area_;
-  std::vector<Tile> tiles_;
 };
 
 /// Renders until the budget is met or `stop` becomes true. `published` is called after every pass, on the
@@ -83,7 +85,16 @@ class Passes {
 [[nodiscard]] Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& stop,
                                const std::function<void(const Rendering&)>& published);
 
-/// What the job's walks have to deal with, in words: "grey isotropic matched".
-[[nodiscard]] std::string describe_model(const Scene& scene);
+/// Whether the job walks in lanes wherever the scene allows it.
+[[nodiscard]] bool uses_lanes(const Job& job) noexcept;
+
+/// Waits for what the job's geometry still makes for its walks, which a pass would do otherwise; false when
+/// it was interrupted. Errors: what stopped the making.
+[[nodiscard]] bool prepare_walks(const Job& job, const std::atomic<bool>& stop);
+
+/// What walks in a scene have to deal with, in words, "grey isotropic matched"; and with which code a job
+/// does so before it, "batch grey isotropic matched".
+[[nodiscard]] std::string describe_media(const Scene& scene);
+[[nodiscard]] std::string describe_model(const Job& job);
 
 }  // namespace meander

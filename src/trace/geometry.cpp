@@ -1,6 +1,9 @@
 #include "trace/geometry.h"
 
+#include <chrono>
+
 #include "math/free_path.h"
+#include "trace/empty_balls.h"
 
 namespace meander {
 namespace {
@@ -132,6 +135,22 @@ bool blocks(const Shape& shape, const Approach& ray, const Placement& placement,
   return first_hit(shape, ray, placement, distance).has_value();
 }
 
+// What is inside of an exact shape by more than the rounding of a step's end.
+template <class Unit>
+SafeRegion convex_region(const AffineShape<Unit>& shape) noexcept {
+  constexpr float kMargin = 0x1p-18F;
+  SafeRegion region;
+  region.kind = std::is_same_v<Unit, UnitSphere> ? SafeRegion::Kind::ellipsoid : SafeRegion::Kind::box;
+  for (int row = 0; row < 3; ++row) {
+    const bool bounded = !std::is_same_v<Unit, UnitSlab> || row == 1;
+    for (int column = 0; column < 3; ++column)
+      region.map[row][column] = static_cast<float>(shape.to_unit[column][row]) * (1 + kMargin);
+    region.low[row] = bounded ? -1 : -std::numeric_limits<float>::infinity();
+    region.high[row] = bounded ? 1 : std::numeric_limits<float>::infinity();
+  }
+  return region;
+}
+
 Real size_of(const DMat3& map) noexcept {
   return static_cast<Real>(std::max({glm::length(map[0]), glm::length(map[1]), glm::length(map[2])}));
 }
@@ -159,24 +178,31 @@ bool Geometry::holds_light(const Body& body, const Scene& scene) noexcept {
   return false;
 }
 
-Geometry::SharedMesh Geometry::find_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map) const {
+// In the background, so that a first coarse picture need not wait. Whoever lets the mesh go waits for it.
+void Geometry::PlacedMesh::make_balls(int threads) {
+  balls = std::async(std::launch::async, [this, threads] { return make_empty_balls(body, threads); }).share();
+}
+
+Geometry::SharedMesh Geometry::find_mesh(const MeshUse& use) const {
   for (const Body& body : bodies_) {
     const auto* placed = std::get_if<SharedMesh>(&body.shape);
-    if (!placed || (*placed)->map != map) continue;
+    if (!placed || (*placed)->map != use.map || (use.holds_medium && !(*placed)->balls.valid())) continue;
     // By owner: another mesh at the address of one that is gone is another mesh.
     const std::weak_ptr<const Mesh>& source = (*placed)->source;
-    if (!source.owner_before(mesh) && !mesh.owner_before(source) && source.lock() == mesh) return *placed;
+    if (!source.owner_before(use.mesh) && !use.mesh.owner_before(source) && source.lock() == use.mesh)
+      return *placed;
   }
   return nullptr;
 }
 
-Geometry::SharedMesh Geometry::make_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map,
-                                         const Geometry* previous) {
-  if (SharedMesh known = find_mesh(mesh, map)) return known;
+Geometry::SharedMesh Geometry::make_mesh(const MeshUse& use, const Geometry* previous) {
+  if (SharedMesh known = find_mesh(use)) return known;
   if (previous)
-    if (SharedMesh known = previous->find_mesh(mesh, map)) return known;
+    if (SharedMesh known = previous->find_mesh(use)) return known;
   if (!device_) device_ = make_device(threads_);
-  return std::make_shared<const PlacedMesh>(device_, mesh, map);
+  const auto placed = std::make_shared<PlacedMesh>(device_, use.mesh, use.map);
+  if (use.holds_medium) placed->make_balls(threads_);
+  return placed;
 }
 
 Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, const Geometry* previous) {
@@ -192,10 +218,39 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, con
     return {BoxBody(map), origin, size_of(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<SlabShape>(object.shape))
     return {SlabBody(map), origin, size_of(map), closed, matched, false, sigma_t};
-  SharedMesh mesh = make_mesh(std::get<std::shared_ptr<const Mesh>>(object.shape), map, previous);
+  SharedMesh mesh = make_mesh({std::get<std::shared_ptr<const Mesh>>(object.shape), map, closed}, previous);
   const Real size = largest(mesh->body.half_size());
   const DVec3 center = origin + mesh->center;
   return {std::move(mesh), center, size, closed, matched, false, sigma_t};
+}
+
+bool Geometry::is_finished() const {
+  return std::ranges::all_of(bodies_, [](const Body& body) {
+    const auto* mesh = std::get_if<SharedMesh>(&body.shape);
+    if (!mesh || !(*mesh)->balls.valid()) return true;
+    return (*mesh)->balls.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  });
+}
+
+bool Geometry::finish(const std::atomic<bool>& stop) const {
+  for (const Body& body : bodies_) {
+    const auto* mesh = std::get_if<SharedMesh>(&body.shape);
+    if (!mesh || !(*mesh)->balls.valid()) continue;
+    while ((*mesh)->balls.wait_for(std::chrono::milliseconds(2)) != std::future_status::ready)
+      if (stop) return false;
+    (void)(*mesh)->balls.get();
+  }
+  return !stop;
+}
+
+SafeRegion Geometry::safe_region(std::size_t object) const {
+  const auto region_of = [](const auto& shape) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, SharedMesh>)
+      return SafeRegion{.kind = SafeRegion::Kind::balls, .balls = &shape->balls.get()};
+    else
+      return convex_region(shape);
+  };
+  return std::visit(region_of, bodies_[object].shape);
 }
 
 Real Geometry::offset(std::size_t object, const Vec3& point) const noexcept {

@@ -2,12 +2,15 @@
 // in double.
 #pragma once
 
+#include <atomic>
+#include <future>
 #include <limits>
 #include <memory>
 #include <variant>
 
 #include "scene/analytic_shapes.h"
 #include "scene/camera_rays.h"
+#include "scene/safe_region.h"
 #include "scene/scene.h"
 #include "trace/mesh_body.h"
 
@@ -47,6 +50,20 @@ class Geometry {
     return std::holds_alternative<SharedMesh>(bodies_[object].shape);
   }
 
+  /// Whether walks in a translucent object are walked in lanes: it has a region in which a step costs no
+  /// ray, and no light lies inside.
+  [[nodiscard]] bool walks_in_lanes(std::size_t object) const noexcept {
+    return bodies_[object].closed && !bodies_[object].holds_light;
+  }
+
+  /// Where steps of a walk in a translucent object cross nothing. Refers to the geometry. A mesh's balls are
+  /// made in the background: the first call may wait for them, and throws what stopped them.
+  [[nodiscard]] SafeRegion safe_region(std::size_t object) const;
+
+  /// Whether the balls of every mesh are there; finish waits for them, false when `stop` came first.
+  [[nodiscard]] bool is_finished() const;
+  [[nodiscard]] bool finish(const std::atomic<bool>& stop) const;
+
   /// f(world) with the object's own World.
   template <class F>
   [[nodiscard]] auto with_body(std::size_t object, F&& f) const noexcept {
@@ -59,11 +76,14 @@ class Geometry {
     PlacedMesh(std::shared_ptr<RTCDeviceTy> on, const std::shared_ptr<const Mesh>& mesh, const DMat3& linear)
         : device(std::move(on)), source(mesh), map(linear), body(device.get(), *mesh, map, center) {}
 
+    void make_balls(int threads);
+
     std::shared_ptr<RTCDeviceTy> device;
     std::weak_ptr<const Mesh> source;
     DMat3 map;
     DVec3 center{0};
     MeshBody body;
+    std::shared_future<EmptyBalls> balls;  // valid where a translucent object may need them
   };
   using SharedMesh = std::shared_ptr<const PlacedMesh>;
 
@@ -84,9 +104,14 @@ class Geometry {
   [[nodiscard]] static const MeshBody& world_of(const SharedMesh& mesh) noexcept { return mesh->body; }
 
   [[nodiscard]] Body make_body(const Object& object, const Scene& scene, const Geometry* previous);
-  [[nodiscard]] SharedMesh make_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map,
-                                     const Geometry* previous);
-  [[nodiscard]] SharedMesh find_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map) const;
+  // What a mesh is placed for: `holds_medium` ones have balls.
+  struct MeshUse {
+    const std::shared_ptr<const Mesh>& mesh;
+    const DMat3& map;
+    bool holds_medium;
+  };
+  [[nodiscard]] SharedMesh make_mesh(const MeshUse& use, const Geometry* previous);
+  [[nodiscard]] SharedMesh find_mesh(const MeshUse& use) const;
   [[nodiscard]] static bool holds_light(const Body& body, const Scene& scene) noexcept;
   [[nodiscard]] std::optional<SurfaceHit> hit_within(std::size_t object, const Ray& ray,
                                                      double distance) const noexcept;

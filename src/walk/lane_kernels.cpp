@@ -152,7 +152,7 @@ struct Region<SafeRegion::Kind::balls> {
   }
 };
 
-template <SafeRegion::Kind kKind, bool kChromatic, bool kAnisotropic>
+template <SafeRegion::Kind kKind, bool kChromatic, bool kAnisotropic, bool kTallies>
 class Kernel {
  public:
   HWY_INLINE Kernel(const LaneModel& model, Lanes& lanes)
@@ -283,6 +283,7 @@ class Kernel {
     const VU one = hn::IfThenElseZero(m, hn::Set(U(), 1));
     hn::Store(hn::IfThenElse(m, one, hn::Load(U(), lanes_.scatters + at)), U(), lanes_.scatters + at);
     if constexpr (kChromatic) weigh_free_path(at, safe, distance);
+    if constexpr (kTallies) tally(at, safe, distance);
 
     VF weight = set(0);
     for (int c = 0; c < 3; ++c) {
@@ -311,6 +312,16 @@ class Kernel {
     hn::Store(hn::Add(hn::Load(U(), lanes_.order + at), scattered), U(), lanes_.order + at);
   }
 
+  // What a step flies and leaves behind, before its collision is weighed.
+  HWY_INLINE void tally(int at, MF safe, VF distance) {
+    const VF carried = hn::IfThenElseZero(
+        safe, hn::Mul(hn::Mul(hn::Load(F(), lanes_.albedo[0] + at), hn::Load(F(), lanes_.throughput[0] + at)),
+                      hn::Load(F(), lanes_.lift + at)));
+    const VF left = hn::Mul(carried, set(1 - model_.medium.albedo.x));
+    hn::Store(hn::MulAdd(carried, distance, hn::Load(F(), lanes_.path + at)), F(), lanes_.path + at);
+    hn::Store(hn::Add(hn::Load(F(), lanes_.absorbed + at), left), F(), lanes_.absorbed + at);
+  }
+
   // Folds a collision into the densities of the free paths, see PathWeight.
   HWY_INLINE void weigh_free_path(int at, MF safe, VF distance) {
     const Rgb& sigma = model_.medium.sigma_t;
@@ -333,20 +344,22 @@ class Kernel {
   Lanes& lanes_;
 };
 
+template <SafeRegion::Kind kKind, bool kChromatic, bool kTallies>
+void advance_with(const LaneModel& model, Lanes& lanes, int count, int enough) {
+  if (model.medium.g == 0)
+    Kernel<kKind, kChromatic, false, kTallies>(model, lanes).run(count, enough);
+  else
+    Kernel<kKind, kChromatic, true, kTallies>(model, lanes).run(count, enough);
+}
+
 template <SafeRegion::Kind kKind>
 void advance_in(const LaneModel& model, Lanes& lanes, int count, int enough) {
-  const bool chromatic = !is_grey(model.medium.sigma_t);
-  if (model.medium.g == 0) {
-    if (chromatic)
-      Kernel<kKind, true, false>(model, lanes).run(count, enough);
-    else
-      Kernel<kKind, false, false>(model, lanes).run(count, enough);
-  } else {
-    if (chromatic)
-      Kernel<kKind, true, true>(model, lanes).run(count, enough);
-    else
-      Kernel<kKind, false, true>(model, lanes).run(count, enough);
-  }
+  if constexpr (kKind != SafeRegion::Kind::balls)
+    if (model.tallies) return advance_with<kKind, false, true>(model, lanes, count, enough);
+  if (!is_grey(model.medium.sigma_t))
+    advance_with<kKind, true, false>(model, lanes, count, enough);
+  else
+    advance_with<kKind, false, false>(model, lanes, count, enough);
 }
 
 void advance(const LaneModel& model, Lanes& lanes, int count, int enough) {

@@ -10,7 +10,9 @@ namespace meander {
 /// start(lane, walker, random): sets up the first walk of a lane, or says false when there is none left.
 /// end(lane, result, walker, random): a walk of the lane has ended; true when another (the same one, sent
 /// back inside, or a new one) has been set up in its place. collided(lane, walker, random): see WalkEvents::
-/// scattered; the random numbers it draws are the walk's.
+/// scattered; the random numbers it draws are the walk's. tally(lane, path, absorbed), which a client of a
+/// model that tallies has besides: what the walk has flown, times its weight, and left behind, since the
+/// last call.
 template <class C>
 concept LaneClient = requires(C& client, int lane, const WalkResult& result, Walker& walker, Random& random) {
   { client.start(lane, walker, random) } -> std::same_as<bool>;
@@ -54,18 +56,44 @@ class LaneWalks {
   [[nodiscard]] const LaneCounters& counters() const noexcept { return counters_; }
 
  private:
+  static constexpr bool kTallies = requires(C & client) { client.tally(0, Real(0), Real(0)); };
+
+  // Of a walk's weight, as it was put into its lane.
+  struct Put {
+    Rgb ratio{1};
+    Rgb since{1};
+    std::uint32_t order = 0;
+    int hero = 0;
+  };
+
   void put(int lane, const Walker& walker, const Random& random, bool scatters) noexcept {
     if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::empty)) ++in_use_;
     put_walker(lanes_, lane, walker, random, scatters, model_.medium.sigma_t);
     if (model_.region.balls) put_ball(lanes_, lane, model_.region.balls->at(glm::vec3(walker.position)));
-    hero_[lane] = static_cast<std::uint8_t>(walker.weight.hero);
+    put_[lane] = {walker.weight.ratio, walker.weight.since, walker.weight.order, walker.weight.hero};
+  }
+
+  // The walk of a lane. What it came with from before the body is folded in at its first collision; until
+  // then it stands.
+  [[nodiscard]] Walker walker_in(int lane) const noexcept {
+    Walker walker = walker_of(lanes_, lane);
+    const Put& put = put_[lane];
+    walker.weight.hero = put.hero;
+    if (walker.weight.order == put.order) {
+      walker.weight.ratio = put.ratio;
+      walker.weight.since = put.since;
+    }
+    return walker;
   }
 
   void see_to(int lane) noexcept {
     const auto state = static_cast<LaneState>(lanes_.state[lane]);
     if (state == LaneState::running || state == LaneState::empty) return;
-    Walker walker = walker_of(lanes_, lane);
-    walker.weight.hero = hero_[lane];
+    if constexpr (kTallies) {
+      client_.tally(lane, Real(lanes_.path[lane]), Real(lanes_.absorbed[lane]));
+      lanes_.path[lane] = lanes_.absorbed[lane] = 0;
+    }
+    Walker walker = walker_in(lane);
     Random random = random_of(lanes_, lane);
     if (state == LaneState::absorbed) return end(lane, {WalkEnd::absorbed, {}}, walker, random);
     if (state == LaneState::crossing && !cross(lane, walker, random)) return;
@@ -78,6 +106,13 @@ class LaneWalks {
     ++counters_.rays;
     const Crossing crossing =
         world_.first_crossing(walker.position, walker.direction, Real(lanes_.distance[lane]));
+    if constexpr (kTallies) {
+      const Real carried = walker.weight.carried().x;
+      const bool stays = crossing.kind == CrossingKind::none;
+      if (crossing.kind != CrossingKind::leaked)
+        client_.tally(lane, carried * crossing.distance,
+                      stays ? carried * (1 - model_.medium.albedo.x) : Real(0));
+    }
     if (crossing.kind != CrossingKind::none) {
       walker.weight.pass(model_.medium, crossing.distance);
       if (crossing.kind == CrossingKind::exit) walker.position = crossing.point;
@@ -110,7 +145,7 @@ class LaneWalks {
   const LaneModel& model_;
   C& client_;
   Lanes lanes_{};
-  std::uint8_t hero_[kLanes] = {};
+  Put put_[kLanes] = {};
   int in_use_ = 0;
   LaneCounters counters_;
 };

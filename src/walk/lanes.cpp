@@ -19,7 +19,8 @@ void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& rand
   put(lanes.direction, lane, walker.direction);
   put(lanes.throughput, lane, walker.weight.throughput);
   put(lanes.albedo, lane, walker.weight.albedo);
-  put(lanes.ratio, lane, walker.weight.ratio);
+  const Rgb ratio = walker.weight.ratio * walker.weight.since;
+  put(lanes.ratio, lane, ratio / largest(ratio));
   lanes.ball_radius2[lane] = -1;
   lanes.lift[lane] = 1;
   lanes.length[lane] = static_cast<float>(walker.weight.length);

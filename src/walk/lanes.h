@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "medium/medium.h"
-#include "scene/empty_balls.h"
+#include "scene/safe_region.h"
 #include "walk/random_walk.h"
 
 namespace meander {
@@ -41,6 +41,8 @@ struct alignas(64) Lanes {
   Row ratio[3];
   Row lift;
   Row length;
+  Row path;      // weight times distance, and
+  Row absorbed;  // weight left behind, of the first channel, since the lane last rested
   Row distance;
   Row sigma;         // of the channel that samples the distances
   Row one_minus_mu;  // of the deflection that made the direction, and
@@ -63,22 +65,18 @@ void put_ball(Lanes& lanes, int lane, const EmptyBall& ball) noexcept;
 [[nodiscard]] Walker walker_of(const Lanes& lanes, int lane) noexcept;
 [[nodiscard]] Random random_of(const Lanes& lanes, int lane) noexcept;
 
-/// A convex part of space in which a step crosses nothing when both its ends are there: what is inside of a
-/// convex body, or the balls of any body. Convex: low <= map * p <= high, or |map * p| <= 1 for an ellipsoid.
-struct SafeRegion {
-  enum class Kind { box, ellipsoid, balls } kind = Kind::box;
-  float map[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // rows
-  float low[3] = {-1, -1, -1};
-  float high[3] = {1, 1, 1};
-  const EmptyBalls* balls = nullptr;
-};
-
 /// What the lanes walk through: implicit capture. `rests_at_collisions`: every collision needs a shadow ray.
+/// `tallies`: the rows `path` and `absorbed` are filled; for a grey medium in a convex region.
 struct LaneModel {
   Medium medium;
   SafeRegion region;
   bool rests_at_collisions = false;
+  bool tallies = false;
 };
+
+/// Which code walks: the scalar oracle, or lanes of SIMD wherever those can (implicit capture, no light
+/// inside the body). Same statistics, other rounding.
+enum class WalkCode { scalar, batch };
 
 enum class InstructionSet { baseline, sse4, avx2, avx512 };
 

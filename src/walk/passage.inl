@@ -37,27 +37,40 @@ template <SceneGeometry G>
 template <Sink S>
 struct PathTracer<G>::Passage {
   PathTracer& tracer;
-  const SurfaceHit& hit;
-  const TranslucentMaterial& material;
-  State& state;
+  Path& path;
   Random& random;
   S& sink;
-  bool holds_light = tracer.geometry_.holds_light(hit.object);  // asked once a passage, not once a step
-  Walker walker = {};
+  State& state = path.state;
+  Walker& walker = path.walker;
+  const SurfaceHit& hit = path.hit;
+  const TranslucentMaterial& material = *path.material;
+  bool holds_light = tracer.geometry_.holds_light(path.hit.object);  // asked once a walk, not once a step
 
-  /// Takes the path from the hit to where it leaves the body, is mirrored off it, or ends.
-  [[nodiscard]] Step cross() noexcept {
+  /// Takes the path from the hit into the body, or off it.
+  [[nodiscard]] Step begin() noexcept {
+    walker = {};
+    path.counted_steps = 0;
     walker.weight = state.weight;
     walker.direction = state.ray.direction;
     if (!enter()) return Step::go_on;
     ++tracer.counters_.walks;
-    for (;;) {
-      const WalkResult result = walk();
-      if (result.end == WalkEnd::interrupted) return Step::interrupted;
-      if (result.end == WalkEnd::absorbed) return Step::done;
-      if (result.end == WalkEnd::leaked) return leak();
-      if (const std::optional<Step> step = leave(result.crossing)) return *step;
-    }
+    return Step::walk;
+  }
+
+  /// What the end of a walk means for the path.
+  [[nodiscard]] Step end(const WalkResult& walked) noexcept {
+    if (walked.end == WalkEnd::absorbed) return Step::done;
+    if (walked.end == WalkEnd::leaked) return leak();
+    return leave(walked.crossing);
+  }
+
+  [[nodiscard]] WalkResult walk() noexcept {
+    const WalkModel model{material.medium, tracer.options_.estimator};
+    const std::uint64_t before = walker.steps;
+    const WalkResult result = tracer.geometry_.with_body(
+        hit.object, [&](const auto& world) { return random_walk(world, model, walker, random, *this); });
+    if (tracer.geometry_.traces_rays(hit.object)) tracer.counters_.rays += walker.steps - before;
+    return result;
   }
 
   // What the walk reports as it goes.
@@ -154,16 +167,6 @@ struct PathTracer<G>::Passage {
     walker.weight.vertex();
   }
 
-  [[nodiscard]] WalkResult walk() noexcept {
-    const WalkModel model{material.medium, tracer.options_.estimator};
-    const std::uint64_t before = walker.steps;
-    const WalkResult result = tracer.geometry_.with_body(
-        hit.object, [&](const auto& world) { return random_walk(world, model, walker, random, *this); });
-    tracer.counters_.steps += walker.steps - before;
-    if (tracer.geometry_.traces_rays(hit.object)) tracer.counters_.rays += walker.steps - before;
-    return result;
-  }
-
   // Lost through a hole: what is beyond counts as the environment.
   [[nodiscard]] Step leak() noexcept {
     ++tracer.counters_.leaked_walks;
@@ -180,8 +183,8 @@ struct PathTracer<G>::Passage {
     return Step::done;
   }
 
-  // What the boundary does with a walk that reaches it from inside; nothing when it sends the walk back.
-  [[nodiscard]] std::optional<Step> leave(const Crossing& crossing) noexcept {
+  // What the boundary does with a walk that reaches it from inside.
+  [[nodiscard]] Step leave(const Crossing& crossing) noexcept {
     if (material.boundary == Boundary::matched) return leave_matched(crossing);
     if (is_rough()) return leave_rough(crossing);
     if (material.boundary == Boundary::dielectric) return leave_dielectric(crossing);
@@ -205,13 +208,13 @@ struct PathTracer<G>::Passage {
     return Step::go_on;
   }
 
-  [[nodiscard]] std::optional<Step> leave_dielectric(const Crossing& crossing) noexcept {
+  [[nodiscard]] Step leave_dielectric(const Crossing& crossing) noexcept {
     const InterfaceRay ray =
         meet_interface(walker.direction, -crossing.normal, -crossing.shading_normal, 1 / ior());
     if (random.next() < ray.reflectance) {
       walker.direction = lift_off(ray.reflected, -crossing.normal);
       place_inside(crossing.point, crossing.normal);
-      return std::nullopt;
+      return Step::walk;
     }
     state.weight = walker.weight;
     send_specular(state, tracer.leave(hit.object, crossing.point, crossing.normal, ray.refracted));
@@ -252,15 +255,15 @@ struct PathTracer<G>::Passage {
     return true;
   }
 
-  [[nodiscard]] std::optional<Step> leave_rough(const Crossing& crossing) noexcept {
+  [[nodiscard]] Step leave_rough(const Crossing& crossing) noexcept {
     if (meet_rough(crossing.point, crossing.normal, crossing.shading_normal)) return Step::go_on;
     place_inside(crossing.point, crossing.normal);
-    return std::nullopt;
+    return Step::walk;
   }
 
   // A Lambertian under a smooth interface: part of it is refracted out, where lights are sampled, the rest
   // goes back.
-  [[nodiscard]] std::optional<Step> leave_refracted(const Crossing& crossing) noexcept {
+  [[nodiscard]] Step leave_refracted(const Crossing& crossing) noexcept {
     walker.weight.vertex();
     if (!walker.weight.survives_roulette(random, kRouletteThreshold)) return Step::done;
     const RefractedLobe lobe(make_lobe(crossing.normal, crossing.shading_normal), ior());
@@ -278,7 +281,7 @@ struct PathTracer<G>::Passage {
     if (!direction) {
       send_inward(crossing.normal, crossing.shading_normal);
       place_inside(crossing.point, crossing.normal);
-      return std::nullopt;
+      return Step::walk;
     }
     vertex.ray = {vertex.vertex, *direction, vertex.departure};
     vertex.pdf = lobe.eval(*direction);

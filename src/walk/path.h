@@ -54,23 +54,10 @@ struct PathOptions {
   bool sample_lights = true;                // false: lights are found by rays alone, which tests compare with
 };
 
-/// Traces paths in one scene; holds references only. One tracer a thread, for the counters' sake.
-template <SceneGeometry G>
-class PathTracer {
- public:
-  PathTracer(const Scene& scene, const G& geometry, const PathOptions& options) noexcept
-      : scene_(scene), geometry_(geometry), options_(options) {}
-
-  /// Traces one path and hands its contributions to the sink; false when it was interrupted.
-  template <Sink S>
-  [[nodiscard]] bool trace(const Ray& camera_ray, Random& random, S& sink) noexcept;
-
-  [[nodiscard]] const PathCounters& counters() const noexcept { return counters_; }
-
- private:
-  // The path between two interactions. `vertex` is where it last scattered, `pdf` the density per steradian
-  // of the direction it took there, `light_choice` the probability with which any one light was sampled
-  // there.
+/// A path under way. `state` stands for what lies between two interactions: `vertex` is where it last
+/// scattered, `pdf` the density per steradian of the direction it took there, `light_choice` the probability
+/// with which any one light was sampled there. The rest belongs to the body that the path is inside of.
+struct Path {
   struct State {
     Ray ray;
     PathWeight weight;
@@ -80,13 +67,67 @@ class PathTracer {
     Real pdf = 0;
     Real light_choice = 1;
   };
+  State state;
+  SurfaceHit hit;  // where it came in
+  const TranslucentMaterial* material = nullptr;
+  Walker walker;
+  std::uint64_t counted_steps = 0;  // of the walker's
+};
+
+/// What a path needs next: the walk of path.walker in the body of path.hit, or nothing any more.
+enum class PathStep { walk, done, interrupted };
+
+/// Traces paths in one scene; holds references only. One tracer a thread, for the counters' sake.
+template <SceneGeometry G>
+class PathTracer {
+ public:
+  PathTracer(const Scene& scene, const G& geometry, const PathOptions& options) noexcept
+      : scene_(scene), geometry_(geometry), options_(options) {}
+
+  /// Traces one path, with scalar walks, and hands its contributions to the sink; false when it was
+  /// interrupted.
+  template <Sink S>
+  [[nodiscard]] bool trace(const Ray& camera_ray, Random& random, S& sink) noexcept;
+
+  /// The same in pieces, for walks that are walked elsewhere: takes a new path as far as its first walk.
+  template <Sink S>
+  [[nodiscard]] PathStep begin(Path& path, const Ray& camera_ray, Random& random, S& sink) noexcept;
+
+  /// Takes a path whose walk has ended as far as its next one.
+  template <Sink S>
+  [[nodiscard]] PathStep resume(Path& path, const WalkResult& walked, Random& random, S& sink) noexcept;
+
+  /// The walk that a path needs, by the scalar code.
+  template <Sink S>
+  [[nodiscard]] WalkResult walk(Path& path, Random& random, S& sink) noexcept;
+
+  /// What a walk's collision adds, see WalkEvents::scattered.
+  template <Sink S>
+  void collided(Path& path, Random& random, S& sink) noexcept;
+
+  /// Whether collided adds anything in bodies of a material.
+  [[nodiscard]] bool lights_collisions(const TranslucentMaterial& material) const noexcept {
+    return material.boundary == Boundary::matched && sampled_lights() > 0;
+  }
+
+  [[nodiscard]] bool stop() const noexcept {
+    return options_.stop && options_.stop->load(std::memory_order_relaxed);
+  }
+  [[nodiscard]] const PathOptions& options() const noexcept { return options_; }
+  [[nodiscard]] PathCounters& counters() noexcept { return counters_; }
+
+ private:
+  using State = Path::State;
   template <Sink S>
   struct Passage;
 
-  enum class Step { go_on, done, interrupted };
+  enum class Step { go_on, walk, done };
 
+  // Takes the path through interactions until it needs a walk or has ended.
   template <Sink S>
-  [[nodiscard]] Step advance(State& state, Random& random, S& sink) noexcept;
+  [[nodiscard]] PathStep proceed(Path& path, Random& random, S& sink) noexcept;
+  template <Sink S>
+  [[nodiscard]] Step advance(Path& path, Random& random, S& sink) noexcept;
   template <Sink S>
   [[nodiscard]] Step reflect(const SurfaceHit& hit, const LambertLobe& lobe, State& state, Random& random,
                              S& sink) noexcept;
@@ -108,9 +149,6 @@ class PathTracer {
   [[nodiscard]] Real every_light() const noexcept { return options_.sample_lights ? Real(1) : Real(0); }
   [[nodiscard]] Real one_light() const noexcept {
     return sampled_lights() > 0 ? 1 / static_cast<Real>(sampled_lights()) : Real(0);
-  }
-  [[nodiscard]] bool stop() const noexcept {
-    return options_.stop && options_.stop->load(std::memory_order_relaxed);
   }
   // A direction that no light was sampled for: whatever light the ray finds counts in full.
   static void send_specular(State& state, const Ray& ray) noexcept {

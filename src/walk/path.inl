@@ -6,20 +6,68 @@ namespace meander {
 template <SceneGeometry G>
 template <Sink S>
 bool PathTracer<G>::trace(const Ray& camera_ray, Random& random, S& sink) noexcept {
-  State state;
-  state.ray = camera_ray;
-  state.vertex = camera_ray.origin;
-  if (options_.chromatic) state.weight.hero = std::min(static_cast<int>(random.next() * 3), 2);
+  Path path;
+  PathStep step = begin(path, camera_ray, random, sink);
+  while (step == PathStep::walk) {
+    const WalkResult walked = walk(path, random, sink);
+    step = resume(path, walked, random, sink);
+  }
+  return step == PathStep::done;
+}
+
+template <SceneGeometry G>
+template <Sink S>
+PathStep PathTracer<G>::begin(Path& path, const Ray& camera_ray, Random& random, S& sink) noexcept {
+  path.state = {};
+  path.state.ray = camera_ray;
+  path.state.vertex = camera_ray.origin;
+  if (options_.chromatic) path.state.weight.hero = std::min(static_cast<int>(random.next() * 3), 2);
+  return proceed(path, random, sink);
+}
+
+template <SceneGeometry G>
+template <Sink S>
+PathStep PathTracer<G>::resume(Path& path, const WalkResult& walked, Random& random, S& sink) noexcept {
+  counters_.steps += path.walker.steps - path.counted_steps;
+  path.counted_steps = path.walker.steps;
+  if (walked.end == WalkEnd::interrupted) return PathStep::interrupted;
+  switch (Passage<S>{*this, path, random, sink}.end(walked)) {
+    case Step::walk:
+      return PathStep::walk;
+    case Step::done:
+      return PathStep::done;
+    case Step::go_on:
+      break;
+  }
+  return proceed(path, random, sink);
+}
+
+template <SceneGeometry G>
+template <Sink S>
+WalkResult PathTracer<G>::walk(Path& path, Random& random, S& sink) noexcept {
+  return Passage<S>{*this, path, random, sink}.walk();
+}
+
+template <SceneGeometry G>
+template <Sink S>
+void PathTracer<G>::collided(Path& path, Random& random, S& sink) noexcept {
+  Passage<S>{*this, path, random, sink}.scattered(path.walker);
+}
+
+template <SceneGeometry G>
+template <Sink S>
+PathStep PathTracer<G>::proceed(Path& path, Random& random, S& sink) noexcept {
   for (std::uint64_t vertices = 1;; ++vertices) {
-    if (vertices % kStopInterval == 0 && stop()) return false;
-    const Step step = advance(state, random, sink);
-    if (step != Step::go_on) return step == Step::done;
+    if (vertices % kStopInterval == 0 && stop()) return PathStep::interrupted;
+    const Step step = advance(path, random, sink);
+    if (step != Step::go_on) return step == Step::walk ? PathStep::walk : PathStep::done;
   }
 }
 
 template <SceneGeometry G>
 template <Sink S>
-auto PathTracer<G>::advance(State& state, Random& random, S& sink) noexcept -> Step {
+auto PathTracer<G>::advance(Path& path, Random& random, S& sink) noexcept -> Step {
+  State& state = path.state;
   ++counters_.rays;
   const std::optional<SurfaceHit> hit = geometry_.closest_hit(state.ray);
   if (collect_lights(state, hit ? hit->distance : std::numeric_limits<double>::infinity(), sink))
@@ -29,8 +77,11 @@ auto PathTracer<G>::advance(State& state, Random& random, S& sink) noexcept -> S
     return Step::done;
   }
   const auto& kind = scene_.materials[scene_.objects[hit->object].material].kind;
-  if (const auto* translucent = std::get_if<TranslucentMaterial>(&kind))
-    return Passage<S>{*this, *hit, *translucent, state, random, sink}.cross();
+  if (const auto* translucent = std::get_if<TranslucentMaterial>(&kind)) {
+    path.hit = *hit;
+    path.material = translucent;
+    return Passage<S>{*this, path, random, sink}.begin();
+  }
   if (const auto* emissive = std::get_if<EmissiveMaterial>(&kind)) {
     const Rgb radiance = state.weight.throughput * state.weight.free_path_weight() * emissive->radiance;
     sink.add(detail::make_contribution(state.weight, radiance, 0));

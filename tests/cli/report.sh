@@ -58,7 +58,7 @@ assert [run['name'] for run in report['runs']] == ['implicit-1t', 'implicit-2t',
 for run in report['runs']:
     of_run = [row for row in rows if row['run'] == run['name']]
     assert [int(row['spp']) for row in of_run] == [1, 2, 4, 8, 16, 32, 64]
-    assert run['threads'] == int(of_run[0]['threads']) and run['walk'].startswith('scalar grey')
+    assert run['threads'] == int(of_run[0]['threads']) and run['walk'].startswith('batch grey' if run['estimator'] == 'implicit' else 'scalar grey'), run
     for row, again in zip(of_run, run['rows']):
         assert set(again) < set(row) and float(row['error']) == again['error'], (row, again)
         assert float(row['error_low']) < float(row['error']) < float(row['error_high'])

@@ -125,6 +125,6 @@ TEST_CASE("the object mask holds the pixels that lie wholly on a translucent obj
 }
 
 TEST_CASE("the model is named after what the scene holds") {
-  CHECK(describe_model(mixed_scene()) == "scalar chromatic anisotropic matched diffuse");
-  CHECK(describe_model(Scene{}) == "no translucent object");
+  CHECK(describe_media(mixed_scene()) == "chromatic anisotropic matched diffuse");
+  CHECK(describe_media(Scene{}) == "no translucent object");
 }

@@ -1,0 +1,151 @@
+// Paths side by side: their walks in lanes, everything between two walks in scalar code. A path that needs a
+// walk in another body waits until that body's turn comes.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "walk/lane_walks.h"
+#include "walk/path.h"
+
+namespace meander {
+
+/// A geometry whose bodies know where a step crosses nothing. walks_in_lanes: whether a body has such a
+/// region and wants its walks in lanes; others are walked by the scalar code.
+template <class G>
+concept LaneGeometry = SceneGeometry<G> && requires(const G& geometry, std::size_t object) {
+  { geometry.walks_in_lanes(object) } -> std::same_as<bool>;
+  { geometry.safe_region(object) } -> std::same_as<SafeRegion>;
+};
+
+/// Where a batch has its samples from and where they go. next: the number of a sample, its camera ray and
+/// the random numbers of its path; false when none is left. done: all that the sample found.
+template <class C, class S>
+concept SampleSource = requires(C& source, std::size_t& sample, Ray& ray, Random& random, const S& sink) {
+  { source.next(sample, ray, random) } -> std::same_as<bool>;
+  source.done(sample, sink);
+};
+
+/// Traces all the samples of a source, each into a sink of its own. What a sample finds depends on nothing
+/// but the sample and the instruction set.
+template <LaneGeometry G, Sink S, SampleSource<S> C>
+class PathBatch {
+ public:
+  PathBatch(const Scene& scene, const G& geometry, PathTracer<G>& tracer, C& source)
+      : scene_(scene),
+        geometry_(geometry),
+        tracer_(tracer),
+        source_(source),
+        waiting_(scene.objects.size()) {}
+
+  /// False when it was interrupted.
+  [[nodiscard]] bool run(InstructionSet set) {
+    for (;;) {
+      const auto longest = std::ranges::max_element(waiting_, {}, &std::vector<Slot*>::size);
+      if (longest == waiting_.end() || longest->empty()) {
+        if (!draw()) return !interrupted_;
+        continue;
+      }
+      const auto object = static_cast<std::size_t>(longest - waiting_.begin());
+      const auto& material =
+          std::get<TranslucentMaterial>(scene_.materials[scene_.objects[object].material].kind);
+      const LaneModel model{material.medium, geometry_.safe_region(object),
+                            tracer_.lights_collisions(material)};
+      Client client{*this, object};
+      const bool ended = geometry_.with_body(object, [&](const auto& world) {
+        LaneWalks walks(set, world, model, client);
+        const bool whole = walks.run();
+        if (geometry_.traces_rays(object)) tracer_.counters().rays += walks.counters().rays;
+        return whole;
+      });
+      if (!ended) return false;
+    }
+  }
+
+ private:
+  /// Paths that wait before no new ones are begun.
+  static constexpr std::size_t kMostWaiting = 1024;
+
+  struct Slot {
+    std::size_t sample = 0;
+    Path path;
+    Random random{{1, 0, 0, 0}};
+    S sink;
+  };
+
+  // The paths that walk in one body.
+  struct Client {
+    PathBatch& batch;
+    std::size_t object;
+    Slot* slots[kLanes] = {};
+
+    [[nodiscard]] bool start(int lane, Walker& walker, Random& random) {
+      std::vector<Slot*>& waiting = batch.waiting_[object];
+      while (waiting.empty())
+        if (batch.count_waiting_ >= kMostWaiting || !batch.draw()) return false;
+      Slot* slot = slots[lane] = waiting.back();
+      waiting.pop_back();
+      --batch.count_waiting_;
+      walker = slot->path.walker;
+      random = slot->random;
+      return true;
+    }
+    [[nodiscard]] bool end(int lane, const WalkResult& walked, Walker& walker, Random& random) {
+      Slot& slot = *slots[lane];
+      slot.path.walker = walker;
+      slot.random = random;
+      batch.settle(slot, batch.tracer_.resume(slot.path, walked, slot.random, slot.sink));
+      return start(lane, walker, random);
+    }
+    void collided(int lane, Walker& walker, Random& random) {
+      Slot& slot = *slots[lane];
+      slot.path.walker = walker;
+      batch.tracer_.collided(slot.path, random, slot.sink);
+    }
+    [[nodiscard]] bool stop() const noexcept { return batch.interrupted_ || batch.tracer_.stop(); }
+  };
+
+  // Begins a sample; false when there is none, or when it was interrupted.
+  [[nodiscard]] bool draw() {
+    if (interrupted_) return false;
+    if (free_.empty()) free_.push_back(&slots_.emplace_back());
+    Slot& slot = *free_.back();
+    Ray ray;
+    if (!source_.next(slot.sample, ray, slot.random)) return false;
+    free_.pop_back();
+    slot.sink = {};
+    settle(slot, tracer_.begin(slot.path, ray, slot.random, slot.sink));
+    return true;
+  }
+
+  // Files a path under what it needs next.
+  void settle(Slot& slot, PathStep step) {
+    while (step == PathStep::walk) {
+      const std::size_t object = slot.path.hit.object;
+      if (geometry_.walks_in_lanes(object)) {
+        waiting_[object].push_back(&slot);
+        ++count_waiting_;
+        return;
+      }
+      const WalkResult walked = tracer_.walk(slot.path, slot.random, slot.sink);
+      step = tracer_.resume(slot.path, walked, slot.random, slot.sink);
+    }
+    if (step == PathStep::interrupted)
+      interrupted_ = true;
+    else
+      source_.done(slot.sample, slot.sink);
+    free_.push_back(&slot);
+  }
+
+  const Scene& scene_;
+  const G& geometry_;
+  PathTracer<G>& tracer_;
+  C& source_;
+  std::deque<Slot> slots_;
+  std::vector<Slot*> free_;
+  std::vector<std::vector<Slot*>> waiting_;  // by object
+  std::size_t count_waiting_ = 0;
+  bool interrupted_ = false;
+};
+
+}  // namespace meander

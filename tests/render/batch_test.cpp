@@ -1,0 +1,113 @@
+// Paths in lanes against scalar paths. Both draw the same random numbers for the same sample, so the images
+// agree but for rounding, and for the few samples that rounding sends another way.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include "render/small_scene.h"
+#include "stats/image_error.h"
+
+using namespace meander;
+
+namespace {
+
+// Two matched chromatic bodies that touch, before and beside others, so that paths go from body to body.
+Scene crowded_scene() {
+  Scene scene = mixed_scene();
+  Material skin = translucent("skin", {Rgb(2, 4, 3), Rgb(Real(0.97), Real(0.9), Real(0.8)), Real(-0.3)},
+                              Boundary::dielectric);
+  std::get<TranslucentMaterial>(skin.kind).ior = 1.4;
+  Material rough = skin;
+  rough.name = "rough";
+  std::get<TranslucentMaterial>(rough.kind).roughness = 0.4;
+  scene.materials.push_back(skin);
+  scene.materials.push_back(rough);
+  scene.objects.push_back({"box", BoxShape{}, 0, {{-1, 0, 2}, {0, 30, 0}, DVec3(0.5, 0.4, 0.1)}});
+  scene.objects.push_back({"egg", SphereShape{}, 3, {{0.4, 0.8, 0.5}, {}, DVec3(0.4, 0.5, 0.3)}});
+  scene.objects.push_back({"die", BoxShape{}, 4, {{0.2, -0.6, 1.6}, {20, 40, 0}, DVec3(0.3)}});
+  return scene;
+}
+
+// Share of the values in which two films differ by more than rounding.
+double differing(const Film& a, const Film& b) {
+  std::size_t differ = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      differ += std::abs(a.pixels[i].mean[c] - b.pixels[i].mean[c]) > 1e-3 * (a.pixels[i].mean[c] + 1e-3);
+  return static_cast<double>(differ) / (3.0 * static_cast<double>(a.pixels.size()));
+}
+
+Job scalar(Job job) {
+  job.walk = WalkCode::scalar;
+  return job;
+}
+
+bool same_bytes(const Film& a, const Film& b) {
+  return std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Pixel)) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("lanes render what scalar paths render, sample by sample, on every instruction set") {
+  for (const bool crowded : {false, true}) {
+    Job job = make_job(crowded ? crowded_scene() : mixed_scene(), 2);
+    const Rendering oracle = render_spp(scalar(job), 16);
+    for (const InstructionSet set : instruction_sets()) {
+      CAPTURE(name_of(set));
+      job.instruction_set = set;
+      const Rendering lanes = render_spp(job, 16);
+      CHECK(differing(oracle.film, lanes.film) < 0.05);
+      const ZTest test = z_test(resolve(oracle.film), resolve(lanes.film), {}, {});
+      CHECK(test.passed);
+      CHECK(lanes.non_finite == 0);
+      CHECK(lanes.counters.leaked_walks == oracle.counters.leaked_walks);
+      const auto ratio = [](std::uint64_t a, std::uint64_t b) { return double(a) / double(b); };
+      CHECK(ratio(lanes.counters.walks, oracle.counters.walks) == doctest::Approx(1).epsilon(0.003));
+      CHECK(ratio(lanes.counters.steps, oracle.counters.steps) == doctest::Approx(1).epsilon(0.01));
+      CHECK(lanes.counters.rays < oracle.counters.rays);
+    }
+  }
+}
+
+TEST_CASE("paths in lanes give the same bytes whatever the threads, the tiles and the passes") {
+  Job job = make_job(crowded_scene(), 1);
+  const Rendering one = render_spp(job, 6);
+  job.threads = 2;
+  CHECK(same_bytes(one.film, render_spp(job, 6).film));
+  // One pass over all: larger tiles than the passes of 1, 1, 2 and 2 samples have.
+  const std::atomic<bool> stop{false};
+  Rendering whole;
+  REQUIRE(Passes(job, stop).advance({}, 6, whole));
+  CHECK(same_bytes(one.film, whole.film));
+  CHECK_FALSE(same_bytes(one.film, render_spp(scalar(job), 6).film));
+}
+
+TEST_CASE("a pass in lanes is interrupted in the middle of its walks") {
+  Scene scene = mixed_scene();
+  scene.materials[0] = translucent("dense", {Rgb(100000), Rgb(1), 0}, Boundary::matched);
+  scene.camera.look_from = DVec3(-1, 0, 0) + DVec3(3.0 / 3.62, 0, 0);  // in the middle of the tube
+  const Job job = make_job(std::move(scene), 2);
+  std::atomic<bool> stop{false};
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    stop = true;
+  });
+  Rendering after;
+  CHECK_FALSE(Passes(job, stop).advance({}, 1, after));
+  stopper.join();
+}
+
+TEST_CASE("where lanes cannot walk, scalar code does: analog walks, and bodies that hold lights") {
+  Scene scene = mixed_scene();
+  Job job = make_job(scene, 2);
+  job.estimator = Estimator::analog;
+  CHECK_FALSE(uses_lanes(job));
+  CHECK(same_bytes(render_spp(job, 2).film, render_spp(scalar(job), 2).film));
+  scene.lights.push_back({"inside", SphereLight{{-1, 0, 0}, 0.1, Rgb(5)}, false});
+  const Job lit = make_job(scene, 2);
+  CHECK(uses_lanes(lit));
+  CHECK_FALSE(lit.geometry->walks_in_lanes(0));
+  CHECK(lit.geometry->walks_in_lanes(1));
+}
