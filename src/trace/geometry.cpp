@@ -1,9 +1,6 @@
 #include "trace/geometry.h"
 
-#include <chrono>
-
 #include "math/free_path.h"
-#include "trace/empty_balls.h"
 
 namespace meander {
 namespace {
@@ -178,31 +175,24 @@ bool Geometry::holds_light(const Body& body, const Scene& scene) noexcept {
   return false;
 }
 
-// In the background, so that a first coarse picture need not wait. Whoever lets the mesh go waits for it.
-void Geometry::PlacedMesh::make_balls(int threads) {
-  balls = std::async(std::launch::async, [this, threads] { return make_empty_balls(body, threads); }).share();
-}
-
-Geometry::SharedMesh Geometry::find_mesh(const MeshUse& use) const {
+Geometry::SharedMesh Geometry::find_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map) const {
   for (const Body& body : bodies_) {
     const auto* placed = std::get_if<SharedMesh>(&body.shape);
-    if (!placed || (*placed)->map != use.map || (use.holds_medium && !(*placed)->balls.valid())) continue;
+    if (!placed || (*placed)->map != map) continue;
     // By owner: another mesh at the address of one that is gone is another mesh.
     const std::weak_ptr<const Mesh>& source = (*placed)->source;
-    if (!source.owner_before(use.mesh) && !use.mesh.owner_before(source) && source.lock() == use.mesh)
-      return *placed;
+    if (!source.owner_before(mesh) && !mesh.owner_before(source) && source.lock() == mesh) return *placed;
   }
   return nullptr;
 }
 
-Geometry::SharedMesh Geometry::make_mesh(const MeshUse& use, const Geometry* previous) {
-  if (SharedMesh known = find_mesh(use)) return known;
+Geometry::SharedMesh Geometry::make_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map,
+                                         const Geometry* previous) {
+  if (SharedMesh known = find_mesh(mesh, map)) return known;
   if (previous)
-    if (SharedMesh known = previous->find_mesh(use)) return known;
+    if (SharedMesh known = previous->find_mesh(mesh, map)) return known;
   if (!device_) device_ = make_device(threads_);
-  const auto placed = std::make_shared<PlacedMesh>(device_, use.mesh, use.map);
-  if (use.holds_medium) placed->make_balls(threads_);
-  return placed;
+  return std::make_shared<const PlacedMesh>(device_, mesh, map);
 }
 
 Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, const Geometry* previous) {
@@ -218,7 +208,7 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, con
     return {BoxBody(map), origin, size_of(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<SlabShape>(object.shape))
     return {SlabBody(map), origin, size_of(map), closed, matched, false, sigma_t};
-  SharedMesh mesh = make_mesh({std::get<std::shared_ptr<const Mesh>>(object.shape), map, closed}, previous);
+  SharedMesh mesh = make_mesh(std::get<std::shared_ptr<const Mesh>>(object.shape), map, previous);
   const Real size = largest(mesh->body.half_size());
   const DVec3 center = origin + mesh->center;
   return {std::move(mesh), center, size, closed, matched, false, sigma_t};
@@ -227,20 +217,15 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, con
 bool Geometry::is_finished() const {
   return std::ranges::all_of(bodies_, [](const Body& body) {
     const auto* mesh = std::get_if<SharedMesh>(&body.shape);
-    if (!mesh || !(*mesh)->balls.valid()) return true;
-    return (*mesh)->balls.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    return !mesh || !body.closed || (*mesh)->balls.ready();
   });
 }
 
 bool Geometry::finish(const std::atomic<bool>& stop) const {
-  for (const Body& body : bodies_) {
+  return std::ranges::all_of(bodies_, [&](const Body& body) {
     const auto* mesh = std::get_if<SharedMesh>(&body.shape);
-    if (!mesh || !(*mesh)->balls.valid()) continue;
-    while ((*mesh)->balls.wait_for(std::chrono::milliseconds(2)) != std::future_status::ready)
-      if (stop) return false;
-    (void)(*mesh)->balls.get();
-  }
-  return !stop;
+    return !mesh || !body.closed || (*mesh)->balls.make(threads_, stop);
+  });
 }
 
 SafeRegion Geometry::safe_region(std::size_t object) const {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <future>
 #include <limits>
 #include <memory>
 #include <variant>
@@ -12,6 +11,7 @@
 #include "scene/camera_rays.h"
 #include "scene/safe_region.h"
 #include "scene/scene.h"
+#include "trace/lazy_balls.h"
 #include "trace/mesh_body.h"
 
 namespace meander {
@@ -56,11 +56,12 @@ class Geometry {
     return bodies_[object].closed && !bodies_[object].holds_light;
   }
 
-  /// Where steps of a walk in a translucent object cross nothing. Refers to the geometry. A mesh's balls are
-  /// made in the background: the first call may wait for them, and throws what stopped them.
+  /// Where steps of a walk in a translucent object cross nothing. Refers to the geometry, which must be
+  /// finished.
   [[nodiscard]] SafeRegion safe_region(std::size_t object) const;
 
-  /// Whether the balls of every mesh are there; finish waits for them, false when `stop` came first.
+  /// Whether the balls of every mesh that holds a medium are there; finish makes them, false when `stop` came
+  /// first. Errors: whatever the making throws.
   [[nodiscard]] bool is_finished() const;
   [[nodiscard]] bool finish(const std::atomic<bool>& stop) const;
 
@@ -74,16 +75,15 @@ class Geometry {
   // A mesh on its device, and what it was made of, by which another geometry knows it again.
   struct PlacedMesh {
     PlacedMesh(std::shared_ptr<RTCDeviceTy> on, const std::shared_ptr<const Mesh>& mesh, const DMat3& linear)
-        : device(std::move(on)), source(mesh), map(linear), body(device.get(), *mesh, map, center) {}
+        : device(std::move(on)), source(mesh), map(linear), body(device.get(), *mesh, map, center), balls(body) {}
 
-    void make_balls(int threads);
 
     std::shared_ptr<RTCDeviceTy> device;
     std::weak_ptr<const Mesh> source;
     DMat3 map;
     DVec3 center{0};
     MeshBody body;
-    std::shared_future<EmptyBalls> balls;  // valid where a translucent object may need them
+    LazyBalls balls;
   };
   using SharedMesh = std::shared_ptr<const PlacedMesh>;
 
@@ -104,14 +104,9 @@ class Geometry {
   [[nodiscard]] static const MeshBody& world_of(const SharedMesh& mesh) noexcept { return mesh->body; }
 
   [[nodiscard]] Body make_body(const Object& object, const Scene& scene, const Geometry* previous);
-  // What a mesh is placed for: `holds_medium` ones have balls.
-  struct MeshUse {
-    const std::shared_ptr<const Mesh>& mesh;
-    const DMat3& map;
-    bool holds_medium;
-  };
-  [[nodiscard]] SharedMesh make_mesh(const MeshUse& use, const Geometry* previous);
-  [[nodiscard]] SharedMesh find_mesh(const MeshUse& use) const;
+  [[nodiscard]] SharedMesh make_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map,
+                                     const Geometry* previous);
+  [[nodiscard]] SharedMesh find_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map) const;
   [[nodiscard]] static bool holds_light(const Body& body, const Scene& scene) noexcept;
   [[nodiscard]] std::optional<SurfaceHit> hit_within(std::size_t object, const Ray& ray,
                                                      double distance) const noexcept;
