@@ -6,6 +6,7 @@
 #include <cstring>
 #include <thread>
 
+#include "render/measure.h"
 #include "render/small_scene.h"
 #include "stats/image_error.h"
 
@@ -110,4 +111,41 @@ TEST_CASE("where lanes cannot walk, scalar code does: analog walks, and bodies t
   CHECK(uses_lanes(lit));
   CHECK_FALSE(lit.geometry->walks_in_lanes(0));
   CHECK(lit.geometry->walks_in_lanes(1));
+}
+
+TEST_CASE("lanes measure what scalar walks measure, whatever the threads") {
+  MeasureJob job;
+  job.albedo = 0.95;
+  job.walks = 20000;
+  job.threads = 2;
+  const std::atomic<bool> stop{false};
+  const auto check = [&](const auto& shape, Boundary boundary, double g) {
+    job.shape = shape;
+    job.boundary = boundary;
+    job.ior = boundary == Boundary::matched ? 1 : 1.4;
+    job.g = g;
+    job.walk = WalkCode::scalar;
+    const Measurement oracle = measure(job, stop);
+    job.walk = WalkCode::batch;
+    const Measurement lanes = measure(job, stop);
+    const auto agree = [](const Moments& a, const Moments& b) {
+      CHECK(a.count() == b.count());
+      CHECK(std::abs(a.mean() - b.mean()) <= 0.3 * a.standard_error() + 1e-12);
+    };
+    agree(oracle.reflectance, lanes.reflectance);
+    agree(oracle.transmittance, lanes.transmittance);
+    agree(oracle.absorptance, lanes.absorptance);
+    agree(oracle.mean_path_length, lanes.mean_path_length);
+    agree(oracle.unscattered_transmittance, lanes.unscattered_transmittance);
+    MeasureJob single = job;
+    single.threads = 1;
+    const Measurement alone = measure(single, stop);
+    CHECK(alone.mean_path_length.mean() == lanes.mean_path_length.mean());
+    CHECK(alone.absorptance.mean() == lanes.absorptance.mean());
+  };
+  check(MeasuredSlab{3}, Boundary::matched, 0);
+  check(MeasuredSlab{3}, Boundary::dielectric, 0.8);
+  check(MeasuredSphere{5}, Boundary::diffuse, 0);
+  check(MeasuredSphere{5}, Boundary::matched, -0.4);
+  check(MeasuredHalfSpace{}, Boundary::dielectric, 0);
 }
