@@ -7,10 +7,11 @@ namespace meander {
 
 void Pixel::add(const Rgb& value) noexcept {
   ++count;
+  const double share = 1 / static_cast<double>(count);
   for (int c = 0; c < 3; ++c) {
     const double x = static_cast<double>(value[c]);
     const double before = x - mean[c];
-    mean[c] += before / static_cast<double>(count);
+    mean[c] += before * share;
     m2[c] += before * (x - mean[c]);
   }
 }

@@ -30,6 +30,13 @@ struct Approach {
   double slack;
 };
 
+// Whether a ray misses the ball about a body by more than rounding, or has it behind.
+bool passes_by(const Approach& ray, double reach) noexcept {
+  const double outside = glm::dot(ray.origin, ray.origin) - reach * reach;
+  const double along = glm::dot(ray.origin, DVec3(ray.direction));
+  return outside > 0 && (along > 0 || outside * (1 - 0x1p-18) > along * along);
+}
+
 template <class Unit>
 std::optional<BodyHit> first_hit(const AffineShape<Unit>& shape, const Approach& ray, const Placement&,
                                  double distance) noexcept {
@@ -202,16 +209,19 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, con
   const bool matched = closed && translucent->boundary == Boundary::matched;
   const Rgb sigma_t = matched ? translucent->medium.sigma_t : Rgb(0);
   const DVec3& origin = object.transform.translate;
+  // A transform's axes are at right angles, so that the box reaches farthest.
+  const double reach = (1 + 0x1p-10) * std::sqrt(3.0) * double{size_of(map)};
   if (std::holds_alternative<SphereShape>(object.shape))
-    return {SphereBody(map), origin, size_of(map), closed, matched, false, sigma_t};
+    return {SphereBody(map), origin, size_of(map), reach, closed, matched, false, sigma_t};
   if (std::holds_alternative<BoxShape>(object.shape))
-    return {BoxBody(map), origin, size_of(map), closed, matched, false, sigma_t};
+    return {BoxBody(map), origin, size_of(map), reach, closed, matched, false, sigma_t};
   if (std::holds_alternative<SlabShape>(object.shape))
-    return {SlabBody(map), origin, size_of(map), closed, matched, false, sigma_t};
+    return {SlabBody(map), origin, size_of(map), kInfinity, closed, matched, false, sigma_t};
   SharedMesh mesh = make_mesh(std::get<std::shared_ptr<const Mesh>>(object.shape), map, previous);
   const Real size = largest(mesh->body.half_size());
   const DVec3 center = origin + mesh->center;
-  return {std::move(mesh), center, size, closed, matched, false, sigma_t};
+  const double half_diagonal = (1 + 0x1p-10) * glm::length(DVec3(mesh->body.half_size()));
+  return {std::move(mesh), center, size, half_diagonal, closed, matched, false, sigma_t};
 }
 
 bool Geometry::is_finished() const {
@@ -260,10 +270,18 @@ auto Geometry::approach(std::size_t object, const Ray& ray, const F& f) const no
   return std::visit([&](const auto& shape) { return f(world_of(shape), seen, placement); }, body.shape);
 }
 
+// Whether the ray has just left the object, outward, and the object is convex: it never comes back.
+bool Geometry::leaves_for_good(std::size_t object, const Ray& ray) const noexcept {
+  return ray.departure.object == object && !traces_rays(object) &&
+         glm::dot(ray.departure.offset, ray.direction) > 0;
+}
+
 std::optional<SurfaceHit> Geometry::hit_within(std::size_t object, const Ray& ray,
                                                double distance) const noexcept {
-  const auto hit =
-      approach(object, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
+  const auto hit = approach(
+      object, ray,
+      [&](const auto& shape, const Approach& seen, const Placement& placement) -> std::optional<BodyHit> {
+        if (passes_by(seen, bodies_[object].reach)) return std::nullopt;
         return first_hit(shape, seen, placement, distance);
       });
   if (!hit) return std::nullopt;
@@ -277,8 +295,10 @@ std::optional<SurfaceHit> Geometry::hit_object(std::size_t object, const Ray& ra
 
 std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray) const noexcept {
   std::optional<SurfaceHit> closest;
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (leaves_for_good(i, ray)) continue;
     if (const auto hit = hit_within(i, ray, closest ? closest->distance : kInfinity)) closest = hit;
+  }
   return closest;
 }
 

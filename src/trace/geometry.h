@@ -91,6 +91,7 @@ class Geometry {
     std::variant<SphereBody, BoxBody, SlabBody, SharedMesh> shape;
     DVec3 center;
     Real size;
+    double reach;  // no point of it is farther from its centre
     bool closed;   // it holds a medium: its surface has an inside
     bool matched;  // light passes it unscattered
     bool holds_light;
@@ -110,6 +111,7 @@ class Geometry {
   [[nodiscard]] static bool holds_light(const Body& body, const Scene& scene) noexcept;
   [[nodiscard]] std::optional<SurfaceHit> hit_within(std::size_t object, const Ray& ray,
                                                      double distance) const noexcept;
+  [[nodiscard]] bool leaves_for_good(std::size_t object, const Ray& ray) const noexcept;
   template <class F>
   [[nodiscard]] auto approach(std::size_t object, const Ray& ray, const F& f) const noexcept;
 
