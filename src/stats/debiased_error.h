@@ -10,13 +10,13 @@
 
 namespace meander {
 
-/// Of the counted pixels p and channels c, r the reference, v the variance of its mean and m the mean of r over
-/// the counted pixels among p's 3 x 3, w = 1 / (m^2 + 1e-4):
+/// Of the counted pixels p and channels c, r the reference, v the variance of its mean and m the mean of r
+/// over the counted pixels among p's 3 x 3, w = 1 / (m^2 + 1e-4):
 ///   mse = mean w ((a - r)^2 - v),
-/// whose expectation is a's own relative squared error but for what is left of r's noise in w, because a and r
-/// are independent and E (a - r)^2 = E (a - truth)^2 + v. Not r's own square, as relmse has it: where r is
-/// noisy, its dark pixels would outweigh all others. The noise's m is the same (film/noise.h). It may come out
-/// negative where the reference is no better than a.
+/// whose expectation is a's own relative squared error but for what is left of r's noise in w, because a and
+/// r are independent and E (a - r)^2 = E (a - truth)^2 + v. Not r's own square, as relmse has it: where r is
+/// noisy, its dark pixels would outweigh all others. The noise's m is the same (film/noise.h). It may come
+/// out negative where the reference is no better than a.
 struct DebiasedError {
   double mse = 0;                       // NaN without pixels
   double standard_error = 0;            // of mse: from its spread over the pixels, which are independent; NaN

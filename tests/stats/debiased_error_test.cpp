@@ -40,8 +40,7 @@ TEST_CASE("the debiased error of two pixels is what the formula gives by hand") 
   CHECK(error.mse == doctest::Approx((first + second) / 2).epsilon(1e-6));
   CHECK(error.standard_error == doctest::Approx(std::abs(first - second) / 2).epsilon(1e-6));
   REQUIRE(error.reference_mse);
-  CHECK(*error.reference_mse ==
-        doctest::Approx((0.05 + 0.0625) / 2 / square).epsilon(1e-6));
+  CHECK(*error.reference_mse == doctest::Approx((0.05 + 0.0625) / 2 / square).epsilon(1e-6));
   CHECK(error.pixels == 2);
   CHECK(error.rms() == doctest::Approx(std::sqrt(error.mse)));
   CHECK(error.rms_high() ==
@@ -118,7 +117,8 @@ TEST_CASE("the error of a noisy image against a noisy reference is its own") {
         reference.at(x, y)[c + 3] = 0.0025f;
       }
   const DebiasedError error = debiased_error(a, reference);
-  // What is left of the noise in the weights, a ninth of the reference's variance, adds less than a hundredth.
+  // What is left of the noise in the weights, a ninth of the reference's variance, adds less than a
+  // hundredth.
   CHECK(error.mse == doctest::Approx(0.01).epsilon(0.03));
   // The standard deviation of the mean of three d^2, d of variance 0.0125: 0.0125 sqrt(2 / 3) over 200.
   CHECK(error.standard_error == doctest::Approx(0.0125 * std::sqrt(2.0 / 3) / 200).epsilon(0.1));
