@@ -2,6 +2,7 @@
 # report.sh MEANDER SOURCE_DIR: what report writes, what it says of a bias, and what it refuses.
 set -euo pipefail
 meander=$1
+source=$2
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 cd "$dir"
@@ -63,9 +64,11 @@ for run in report['runs']:
         assert set(again) < set(row) and float(row['error']) == again['error'], (row, again)
         assert float(row['error_low']) < float(row['error']) < float(row['error_high'])
         assert float(row['reference_error']) > 0 and row['reference_suffices'] == 'true'
-        # Nothing subtracted, it is larger by the reference's own.
+        # Nothing subtracted, it is larger by the reference's own; it divides by the pixel's square alone, which
+        # in this smooth picture is near its neighbours'.
         whole = float(row['error']) ** 2 + float(row['reference_error']) ** 2
-        assert abs(float(row['relmse']) / whole - 1) < 1e-6, (row['relmse'], whole)
+        assert abs(float(row['relmse']) / whole - 1) < 0.05, (row['relmse'], whole)
+        assert row['error_is'] == 'reliable' or int(row['spp']) < 8, row
         assert math.isclose(float(row['efficiency']), 1 / (float(row['error']) ** 2 * float(row['seconds'])), rel_tol=1e-9)
         assert math.isclose(float(row['walks_per_second']), int(row['walks']) / float(row['seconds']), rel_tol=1e-9)
     assert of_run[-1]['noise_is'] == 'reliable' == of_run[-1]['bias_test_is'] and of_run[0]['noise_is'] == ''
@@ -134,6 +137,29 @@ assert run['contribution_samples'] >= 1e5 and 1 < run['contribution_p99_99'] <= 
 assert run['rows'][-1]['reference_suffices'] is False and '?' in open('tail.txt').read()
 PY
 
+# So few samples of the reference that its pixels are no measure: every error is marked, and a line says so.
+"$meander" report ball.toml -o rough --spp 16 --reference-spp 2 --estimators implicit --quiet > rough.txt
+python3 - <<'PY' || fail "a reference of two samples is relied upon"
+import json
+report = json.load(open('rough/report.json'))
+(run,) = report['runs']
+assert report['reference']['spp'] == 2 and run['bias_test'] is None, report
+assert all(row['reference_suffices'] is False and row['error_is'] != 'reliable' for row in run['rows']), run
+rows = [line.split() for line in open('rough.txt') if line.startswith('implicit ')][:5]
+assert all(row[5].endswith('?') and row[8].endswith('?') for row in rows), rows
+PY
+grep -q "^error?: the reference's own" rough.txt || fail "it goes unmentioned: $(cat rough.txt)"
+
+# In a furnace the first noise is far below 1 %: nothing is extrapolated backwards.
+"$meander" report "$source/scenes/sphere_furnace.toml" -o furnace --width 32 --height 32 --spp 4 --quiet > furnace.txt
+[ "$(grep -c '  <= [0-9.]*  ' furnace.txt)" -eq 2 ] || fail "the time to 1 % in a furnace: $(cat furnace.txt)"
+
+# What is not a terminal hears of the end as soon as it is foreseen.
+"$meander" render ball.toml -o foreseen.exr --error 0.0001 --time 2 2> foreseen.txt
+[ "$(grep -c 'to go (time)' foreseen.txt)" -eq 1 ] || fail "two seconds pass in silence: $(cat foreseen.txt)"
+"$meander" render ball.toml -o brief.exr --spp 4 2> brief.txt
+! grep -q 'to go' brief.txt || fail "what is done at once is foreseen: $(cat brief.txt)"
+
 # A reference that is given: its own error is subtracted where it is known.
 "$meander" render ball.toml -o given.exr --spp 256 --seed 9 --quiet
 "$meander" report ball.toml -o given "${short[@]}" --reference given.exr > given.txt
@@ -148,6 +174,13 @@ import json
 (run,) = json.load(open('plain/report.json'))['runs']
 assert run['bias_test'] is None and run['rows'][0]['reference_error'] is None, run
 PY
+
+# A report's own reference, given to another, is written again with what it says of itself.
+"$meander" report ball.toml -o again "${short[@]}" --reference given/reference.exr > again.txt
+grep -q 'given/reference.exr, 256 samples' again.txt || fail "a reference loses its samples: $(cat again.txt)"
+status=0
+"$meander" report ball.toml -o same "${short[@]}" --reference again/reference.exr --seed 9 2> said.txt || status=$?
+[ $status -eq 2 ] && grep -q 'use another --seed' said.txt || fail "a reference loses its seed"
 
 # A reference 3 % brighter than the truth: the bias test must see it.
 "$meander" render ball.toml -o bright.exr --spp 1024 --seed 9 --quiet --set light.key.radiance=6.18 --set environment.radiance=0.309
@@ -181,7 +214,25 @@ refuse '--reference-spp' "${report[@]}" --reference given.exr --reference-spp 8
 refuse 'none.toml: cannot open' report none.toml -o bad
 refuse 'it is not a folder' report ball.toml -o ball.toml
 refuse 'is not a folder' report ball.toml -o ball.toml/bad
+refuse '/proc/bad: the folder cannot be made' report ball.toml -o /proc/bad
+refuse 'without a name' report ball.toml -o ''
+# Before the work, which would be endless.
+mkdir -p taken/index.html
+refuse 'taken/index.html: it is a directory' report ball.toml -o taken --spp 2000000000
+rmdir taken/index.html && rmdir taken || fail "a refusal left something behind"
 refuse 'required' report ball.toml
+
+# A folder that is spoilt during the work: the table is there, the exit code is 3, and no page tells of it.
+"$meander" report ball.toml -o late --time 2 --estimators implicit --reference given.exr > late.txt 2> said.txt &
+process=$!
+until grep -q '^implicit' said.txt || ! kill -0 $process; do sleep 0.05; done
+mkdir -p late/report.csv/full
+status=0
+wait $process || status=$?
+[ $status -eq 3 ] || fail "a folder spoilt during the work gives exit code $status: $(cat said.txt)"
+[ "$(grep -c '^meander: ' said.txt)" -eq 1 ] && grep -q '^meander: .*late/report.csv' said.txt || fail "it is not said: $(cat said.txt)"
+grep -q '^implicit' late.txt || fail "the table is lost"
+[ ! -e late/index.html ] && [ ! -e late/report.json ] || fail "a report that is not complete seems to be"
 
 # An interrupt keeps what is complete.
 "$meander" report ball.toml -o stopped --spp 100000000 --reference given.exr > stopped.txt 2> said.txt &
