@@ -84,8 +84,8 @@ ReportPlan plan_of(const ReportOptions& options, const Job& job) {
 
 // Nothing without OpenGL, which only the plot needs.
 std::optional<Image8> draw_plot_of(const Report& report) {
-  constexpr int kWidth = 960;
-  constexpr int kHeight = 600;
+  constexpr int kWidth = 1200;
+  constexpr int kHeight = 750;
   try {
     return plot_picture(report_plot(report), kWidth, kHeight);
   } catch (const Error& error) {
