@@ -136,7 +136,9 @@ int run_report(const ReportOptions& options) {
     throw Error(Fault::runtime, "interrupted before the first pass was complete; nothing was written");
   // First, so that a folder that cannot be written any longer does not cost the work.
   std::cout << report_text(report) << std::flush;
-  write_report(report, draw_plot_of(report), options.render.output);
+  write_report(report, options.render.output);
+  // Last, because it takes OpenGL, and a broken driver may end the program.
+  if (const auto plot = draw_plot_of(report)) add_report_plot(report, *plot, options.render.output);
   if (report.interrupted) std::cerr << "meander: interrupted; wrote what was complete\n";
   return 0;
 }

@@ -110,14 +110,13 @@ void write_linear(const std::string& path, const Image& image, const ImageAttrib
             {area.x0, area.y0, film.width, film.height});
 }
 
-void write_all(const Report& report, const std::optional<Image8>& plot, const std::string& folder) {
-  const std::string page = report_page(report, plot);
+void write_all(const Report& report, const std::string& folder) {
+  const std::string page = report_page(report, std::nullopt);
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) throw cannot_write_into(folder, "the folder cannot be made: " + failed.message());
   remove_earlier(folder);
   write_text(path_in(folder, kTable), report_csv(report));
-  if (plot) write_png(path_in(folder, kPlot), *plot, {});
   write_linear(path_in(folder, kReference), report.reference.image, report.reference.attributes, report.job);
   for (const ReportRun& run : report.runs)
     write_linear(path_in(folder, run_name(report, run) + ".exr"), run.image,
@@ -153,9 +152,18 @@ void check_folder(const std::string& folder, std::span<const std::string> names)
   }
 }
 
-void write_report(const Report& report, const std::optional<Image8>& plot, const std::string& folder) {
+void write_report(const Report& report, const std::string& folder) {
   try {
-    write_all(report, plot, folder);
+    write_all(report, folder);
+  } catch (const Error& error) {
+    throw Error(Fault::runtime, error.what());
+  }
+}
+
+void add_report_plot(const Report& report, const Image8& plot, const std::string& folder) {
+  try {
+    write_png(path_in(folder, kPlot), plot, {});
+    write_text(path_in(folder, kPage), report_page(report, plot));
   } catch (const Error& error) {
     throw Error(Fault::runtime, error.what());
   }

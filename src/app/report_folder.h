@@ -1,7 +1,6 @@
 // The folder of a report: what is checked before the work, and what is written after it.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,9 +18,12 @@ namespace meander {
 /// Error (input).
 void check_folder(const std::string& folder, std::span<const std::string> names);
 
-/// Makes the folder, and writes the table, the pictures and the images, then what tells of them all:
-/// report.json and last index.html. The images of an earlier report there, as its report.json names them,
-/// go; so does its plot where there is none. Error (runtime) when it fails, which then leaves no index.html.
-void write_report(const Report& report, const std::optional<Image8>& plot, const std::string& folder);
+/// Makes the folder, and writes the table and the images, then what tells of them all: report.json and last
+/// index.html. The images of an earlier report there, as its report.json names them, go, and so does its
+/// plot. Error (runtime) when it fails, which then leaves no index.html.
+void write_report(const Report& report, const std::string& folder);
+
+/// Adds the plot to a report that is written: report.png, and index.html once more, with it. Error (runtime).
+void add_report_plot(const Report& report, const Image8& plot, const std::string& folder);
 
 }  // namespace meander

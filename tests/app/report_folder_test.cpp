@@ -38,14 +38,15 @@ TEST_CASE("a report replaces the one before it, and no file of anyone else's") {
   const auto exists = [&](const char* name) { return std::filesystem::exists(folder.path() / name); };
   const auto touch = [&](const char* name) { std::ofstream(folder.path() / name) << "mine"; };
   make_runs(report, {{2, {}, {}}, {Estimator::implicit, Estimator::analog}, {1, 2}, true}, kNever);
-  write_report(report, Image8(2, 2), folder.path().string());
+  write_report(report, folder.path().string());
+  add_report_plot(report, Image8(2, 2), folder.path().string());
   for (const char* name : {"index.html", "report.json", "report.csv", "report.png", "reference.exr",
                            "implicit-1t.exr", "implicit-2t.exr", "analog-1t.exr", "analog-2t.exr"})
     CHECK(exists(name));
   touch("analog-3t.exr");
   touch("notes.txt");
   report.runs.resize(1);
-  write_report(report, std::nullopt, folder.path().string());
+  write_report(report, folder.path().string());
   for (const char* name :
        {"implicit-1t.exr", "implicit-2t.exr", "analog-1t.exr", "analog-2t.exr", "report.png"})
     CHECK_FALSE(exists(name));
@@ -61,7 +62,7 @@ TEST_CASE("what an earlier report.json names elsewhere is left alone") {
   std::ofstream(folder.path() / "in" / "my.exr") << "mine";
   std::ofstream(folder.path() / "in" / "report.json")
       << R"({"runs": [{"name": "../other"}, {"name": "my"}, {"name": 3}, 4]})";
-  write_report(report, std::nullopt, (folder.path() / "in").string());
+  write_report(report, (folder.path() / "in").string());
   CHECK(std::filesystem::exists(folder.path() / "other.exr"));
   CHECK(std::filesystem::exists(folder.path() / "in" / "my.exr"));
 }
@@ -70,11 +71,11 @@ TEST_CASE("a report that cannot be written fails at run time, and leaves no page
   const TemporaryFolder folder;
   Report report = prepared();
   make_runs(report, plan_to({1, {}, {}}), kNever);
-  write_report(report, std::nullopt, folder.path().string());
+  write_report(report, folder.path().string());
   std::filesystem::remove(folder.path() / "reference.exr");
   std::filesystem::create_directories(folder.path() / "reference.exr" / "full");
   try {
-    write_report(report, std::nullopt, folder.path().string());
+    write_report(report, folder.path().string());
     FAIL("it was written");
   } catch (const Error& error) {
     CHECK(error.exit_code() == 3);
@@ -103,7 +104,7 @@ TEST_CASE("a reference that is given keeps what its file says of it") {
   Report report = prepared();
   const std::string written = (folder.path() / "one").string();
   make_runs(report, plan_to({1, {}, {}}), kNever);
-  write_report(report, std::nullopt, written);
+  write_report(report, written);
   for (const char* again : {"two", "three"}) {
     const std::string path = (folder.path() / "one" / "reference.exr").string();
     report.reference = read_reference(path, report.job, {1, {}, {}}, report.mask);
@@ -111,7 +112,7 @@ TEST_CASE("a reference that is given keeps what its file says of it") {
     REQUIRE(report.reference.noise);
     CHECK(report.reference.noise->noise ==
           doctest::Approx(estimate_noise(report.reference.image, report.mask).noise));
-    write_report(report, std::nullopt, (folder.path() / again).string());
+    write_report(report, (folder.path() / again).string());
     const LoadedImage image = read_image((folder.path() / again / "reference.exr").string());
     CHECK(find_integer(image.attributes, "meander/spp") == 32);
     CHECK(find_integer(image.attributes, "meander/seed") == 1);

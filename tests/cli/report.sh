@@ -157,8 +157,9 @@ grep -q "^error?: the reference's own" rough.txt || fail "it goes unmentioned: $
 # What is not a terminal hears of the end as soon as it is foreseen.
 "$meander" render ball.toml -o foreseen.exr --error 0.0001 --time 2 2> foreseen.txt
 [ "$(grep -c 'to go (time)' foreseen.txt)" -eq 1 ] || fail "two seconds pass in silence: $(cat foreseen.txt)"
-"$meander" render ball.toml -o brief.exr --spp 4 2> brief.txt
+"$meander" render ball.toml -o brief.exr --spp 1 2> brief.txt
 ! grep -q 'to go' brief.txt || fail "what is done at once is foreseen: $(cat brief.txt)"
+grep -q 'noise ?,' brief.txt || fail "one sample has a noise: $(cat brief.txt)"
 
 # A reference that is given: its own error is subtracted where it is known.
 "$meander" render ball.toml -o given.exr --spp 256 --seed 9 --quiet
@@ -221,6 +222,14 @@ mkdir -p taken/index.html
 refuse 'taken/index.html: it is a directory' report ball.toml -o taken --spp 2000000000
 rmdir taken/index.html && rmdir taken || fail "a refusal left something behind"
 refuse 'required' report ball.toml
+
+# Without OpenGL there is all but the plot, an earlier one's, too, and one line says so.
+[ -s two/report.png ] || fail "there is no plot to lose"
+MESA_GL_VERSION_OVERRIDE=2.1 "$meander" report ball.toml -o two "${short[@]}" --threads 1 > /dev/null 2> said.txt || fail "no OpenGL: $(cat said.txt)"
+[ "$(wc -l < said.txt)" -eq 1 ] && grep -q 'warning: there is no plot' said.txt || fail "no OpenGL: $(cat said.txt)"
+[ ! -e two/report.png ] || fail "the plot of an earlier report is left"
+[ -s two/implicit.exr ] && [ -s two/reference.exr ] && [ -s two/report.csv ] && [ -s two/report.json ] || fail "no OpenGL, no report"
+[ "$(grep -c '<img' two/index.html)" -eq 3 ] || fail "the page without a plot"
 
 # A folder that is spoilt during the work: the table is there, the exit code is 3, and no page tells of it.
 "$meander" report ball.toml -o late --time 2 --estimators implicit --reference given.exr > late.txt 2> said.txt &
