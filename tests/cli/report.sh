@@ -86,7 +86,7 @@ PY
 
 # The page holds its pictures and asks for nothing beside itself.
 python3 - <<'PY' || fail "the page"
-import base64, re
+import base64, re, struct, zlib
 from html.parser import HTMLParser
 page = open('deep/one/index.html').read()
 class Tags(HTMLParser):
@@ -109,7 +109,18 @@ tags.feed(page)
 tags.close()
 assert not tags.open and not re.search('https?:|url\\(|@import', page)
 # The plot, the reference, and an image and its error for either estimator: other threads give the same.
-assert len(tags.images) == 6 and all(image[:4] == b'\x89PNG' and image[-8:-4] == b'IEND' for image in tags.images)
+assert len(tags.images) == 6
+for image in tags.images:
+    assert image[:8] == b'\x89PNG\r\n\x1a\n'
+    width, height, bits, kind = struct.unpack('>IIBB', image[16:26])
+    data, at = b'', 8
+    while at < len(image):
+        size, name = struct.unpack('>I4s', image[at:at + 8])
+        assert zlib.crc32(image[at + 4:at + 8 + size]) == struct.unpack('>I', image[at + 8 + size:at + 12 + size])[0]
+        data += image[at + 8:at + 8 + size] if name == b'IDAT' else b''
+        at += 12 + size
+    assert name == b'IEND' and (bits, kind) == (8, 2)
+    assert len(zlib.decompress(data)) == height * (1 + 3 * width)
 assert tags.images[0] == open('deep/one/report.png', 'rb').read()
 assert tags.cells == 28 * 11 + 4 * 8, tags.cells
 PY
