@@ -98,8 +98,10 @@ std::optional<Image8> draw_plot_of(const Report& report) {
 void refuse_reference_inside(const ReportOptions& options) {
   if (options.reference.empty()) return;
   std::error_code error;
-  const auto folder = std::filesystem::absolute(options.reference, error).parent_path();
-  if (std::filesystem::equivalent(folder, options.render.output, error))
+  const auto named = std::filesystem::absolute(options.reference, error).parent_path();
+  const auto real = std::filesystem::canonical(options.reference, error).parent_path();
+  if (std::filesystem::equivalent(named, options.render.output, error) ||
+      std::filesystem::equivalent(real, options.render.output, error))
     throw Error(Place{options.reference, 0, 0},
                 "the reference lies in the folder that the report is written into; use another -o");
 }

@@ -48,9 +48,9 @@ bool any_insufficient(const Report& report) {
   });
 }
 
-std::string interval_text(const DebiasedError& error) {
+std::string interval_text(const DebiasedError& error, const std::string& mark) {
   if (!std::isfinite(error.rms_high())) return "-";
-  return percent(error.rms_low()) + " - " + percent(error.rms_high());
+  return percent(error.rms_low()) + " - " + percent(error.rms_high()) + mark;
 }
 
 std::string reference_error(const ReportRow& row) {
@@ -107,7 +107,7 @@ TextTable budget_table(const Report& report) {
       table.rows.push_back(
           {std::string(estimator_name(run.estimator)), std::to_string(run.threads), std::to_string(row.spp),
            number(row.seconds, "%.2f"), percent(row.noise) + (has_doubt(row) ? "?" : ""),
-           percent(row.error.rms()) + mark, interval_text(row.error) + mark, reference_error(row),
+           percent(row.error.rms()) + mark, interval_text(row.error, mark), reference_error(row),
            number(static_cast<double>(row.counters.walks) / row.seconds / 1e6),
            number(static_cast<double>(row.counters.steps) / row.seconds / 1e6), number(row.efficiency())});
     }

@@ -118,11 +118,13 @@ TEST_CASE("an error in doubt is marked with its interval, and a line says why") 
   CHECK(budget_table(sound).rows[0][5] == "10");
   CHECK(budget_table(sound).rows[0][6] == "8.97 - 10.9");
   CHECK_FALSE(says(sound, "error?"));
-  const Report noisy = one_row(0.05, {0.1, 0.01, 0.1, NoiseDoubt::none});
+  Report noisy = one_row(0.05, {0.1, 0.01, 0.1, NoiseDoubt::none});
   CHECK(budget_table(noisy).rows[0][5] == "10?");
   CHECK(budget_table(noisy).rows[0][6] == "8.97 - 10.9?");
   CHECK(says(noisy, "error?: the reference's own"));
   CHECK_FALSE(says(noisy, "error?: rare"));
+  noisy.runs[0].rows[0].error.standard_error = std::numeric_limits<double>::quiet_NaN();
+  CHECK(budget_table(noisy).rows[0][6] == "-");  // of one pixel
   const Report rare = one_row(0.01, {0.1, 0.01, 0.05, NoiseDoubt::rare_bright_samples});
   CHECK(budget_table(rare).rows[0][6] == "8.97 - 10.9?");
   CHECK(says(rare, "error?: rare bright samples"));

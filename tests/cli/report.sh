@@ -215,6 +215,8 @@ refuse 'none.exr' "${report[@]}" --reference none.exr
 refuse 'use another --seed' "${report[@]}" --reference given.exr --seed 9
 mkdir inside && cp given.exr inside/implicit.exr
 refuse 'use another -o' report ball.toml -o inside --spp 4 --reference inside/implicit.exr
+ln -s inside/implicit.exr link.exr
+refuse 'use another -o' report ball.toml -o inside --spp 4 --reference link.exr
 cmp -s given.exr inside/implicit.exr || fail "the reference was overwritten"
 python3 -c '
 import struct
