@@ -245,26 +245,28 @@ MESA_GL_VERSION_OVERRIDE=2.1 "$meander" report ball.toml -o two "${short[@]}" --
 [ "$(grep -c '<img' two/index.html)" -eq 3 ] || fail "the page without a plot"
 
 # A folder that is spoilt during the work: the table is there, the exit code is 3, and no page tells of it.
-"$meander" report ball.toml -o late --time 2 --estimators implicit --reference given.exr > late.txt 2> said.txt &
+"$meander" report ball.toml -o late --time 2 --estimators implicit --reference given.exr > late.txt 2> late_said.txt &
 process=$!
-until grep -q '^implicit' said.txt || ! kill -0 $process; do sleep 0.05; done
+until grep -q '^implicit' late_said.txt || ! kill -0 $process; do sleep 0.05; done
 mkdir -p late/report.csv/full
 status=0
 wait $process || status=$?
-[ $status -eq 3 ] || fail "a folder spoilt during the work gives exit code $status: $(cat said.txt)"
-[ "$(grep -c '^meander: ' said.txt)" -eq 1 ] && grep -q '^meander: .*late/report.csv' said.txt || fail "it is not said: $(cat said.txt)"
+[ $status -eq 3 ] || fail "a folder spoilt during the work gives exit code $status: $(cat late_said.txt)"
+[ "$(grep -c '^meander: ' late_said.txt)" -eq 1 ] && grep -q '^meander: .*late/report.csv' late_said.txt || fail "it is not said: $(cat late_said.txt)"
 grep -q '^implicit' late.txt || fail "the table is lost"
 [ ! -e late/index.html ] && [ ! -e late/report.json ] || fail "a report that is not complete seems to be"
 
 # An interrupt keeps what is complete.
-"$meander" report ball.toml -o stopped --spp 100000000 --reference given.exr > stopped.txt 2> said.txt &
+"$meander" report ball.toml -o stopped --spp 100000000 --reference given.exr > stopped.txt 2> stopping.txt &
 process=$!
-sleep 2
+# Before its own handling begins, a background process of this shell is deaf to interrupts.
+until grep -q '^implicit' stopping.txt || ! kill -0 $process; do sleep 0.05; done
+sleep 1
 kill -INT $process
 status=0
 wait $process || status=$?
-[ $status -eq 0 ] || fail "an interrupt gives exit code $status: $(cat said.txt)"
-grep -q interrupted said.txt || fail "an interrupt goes unmentioned"
+[ $status -eq 0 ] || fail "an interrupt gives exit code $status: $(cat stopping.txt)"
+grep -q interrupted stopping.txt || fail "an interrupt goes unmentioned"
 python3 -c '
 import json
 report = json.load(open("stopped/report.json"))
