@@ -74,17 +74,28 @@ std::string closing_line(const Progress& progress, const Budget& budget) {
   return line;
 }
 
+bool LineTimes::due(const Progress& progress) noexcept {
+  constexpr double kBetween = 5;
+  constexpr double kWorthSaying = 1;
+  const Forecast end = forecast(progress, budget_);
+  const bool known = progress.reliable && end.ending != Ending::none && std::isfinite(end.noise);
+  const bool first = !foreseen_ && known && end.seconds >= kWorthSaying;
+  if (!first && progress.seconds < next_) return false;
+  foreseen_ = true;
+  next_ = progress.seconds + kBetween;
+  return true;
+}
+
 ProgressReport::ProgressReport(const Budget& budget, bool quiet)
-    : budget_(budget), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+    : budget_(budget), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), lines_(budget) {}
 
 void ProgressReport::show(const Rendering& rendering) {
   if (quiet_) return;
-  if (!terminal_ && rendering.seconds < next_line_) return;
   const Progress progress = progress_of(rendering);
+  if (!terminal_ && !lines_.due(progress)) return;
   const std::string line = progress_line(progress, budget_);
   if (!terminal_) {
     std::fprintf(stderr, "%s\n", line.c_str());
-    next_line_ = rendering.seconds + 5;
     return;
   }
   constexpr int kCells = 20;

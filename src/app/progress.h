@@ -19,6 +19,21 @@ namespace meander {
 /// "spp", "time", "error", or "interrupt" when the budget was not met.
 [[nodiscard]] const char* ending_name(Ending ending) noexcept;
 
+/// When plain lines are due: one as soon as the noise is reliable and a second or more is foreseen, and one
+/// every five seconds.
+class LineTimes {
+ public:
+  explicit LineTimes(const Budget& budget) : budget_(budget) {}
+
+  /// Whether a line is due after a pass; taken as printed when it is.
+  [[nodiscard]] bool due(const Progress& progress) noexcept;
+
+ private:
+  Budget budget_;
+  bool foreseen_ = false;  // the first forecast, or a line in its stead, is printed
+  double next_ = 5;        // seconds
+};
+
 class ProgressReport {
  public:
   ProgressReport(const Budget& budget, bool quiet);
@@ -32,8 +47,8 @@ class ProgressReport {
   Budget budget_;
   bool quiet_;
   bool terminal_;
+  LineTimes lines_;
   bool drawn_ = false;
-  double next_line_ = 5;  // seconds at which the next plain line is due
 };
 
 }  // namespace meander

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 
@@ -189,8 +190,10 @@ void print_summary(const RenderOptions& options, const FinishedRun& run) {
     std::fprintf(stderr, "meander: interrupted; wrote what was complete, %llu samples a pixel\n",
                  static_cast<unsigned long long>(r.spp));
   if (options.quiet) return;
-  std::fprintf(stderr, "%s: %llu spp in %.2f s, noise %.2f %%, %.3g steps/s\n", options.output.c_str(),
-               static_cast<unsigned long long>(r.spp), r.seconds, 100 * r.noise.noise,
+  char noise[32] = "?";
+  if (std::isfinite(r.noise.noise)) std::snprintf(noise, sizeof noise, "%.2f %%", 100 * r.noise.noise);
+  std::fprintf(stderr, "%s: %llu spp in %.2f s, noise %s, %.3g steps/s\n", options.output.c_str(),
+               static_cast<unsigned long long>(r.spp), r.seconds, noise,
                static_cast<double>(r.counters.steps) / r.seconds);
   const std::string reached = closing_line(progress_of(r), run.budget);
   if (!reached.empty()) std::fprintf(stderr, "%s\n", reached.c_str());

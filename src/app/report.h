@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/image_file.h"
 #include "render/progressive.h"
 #include "stats/debiased_error.h"
 #include "stats/image_error.h"
@@ -22,8 +23,7 @@ struct ReportRow {
   ImageError plain;  // nothing subtracted
   PathCounters counters;
 
-  [[nodiscard]] double efficiency() const noexcept;              // 1 / (mse x seconds); NaN where mse <= 0
-  [[nodiscard]] double seconds_to_one_percent() const noexcept;  // of noise, which falls as the root of time
+  [[nodiscard]] double efficiency() const noexcept;  // 1 / (mse x seconds); NaN where mse <= 0
 };
 
 /// The samples of a run beside the pixels they fall on, see sample_tail.h.
@@ -50,8 +50,11 @@ struct ReportRun {
 struct ReportReference {
   Image image;                          // three channels, or six with the variance of each mean
   std::string source;                   // in words
+  std::optional<std::uint64_t> spp;     // none where its file does not say
   Rendering rendering;                  // without its film; without samples where it was given
-  NoiseDoubt doubt = NoiseDoubt::none;  // of the noise of the whole image; none where it was given
+  ImageAttributes attributes;           // what its file carries
+  std::optional<NoiseEstimate> noise;   // over the mask; none without variance
+  NoiseDoubt doubt = NoiseDoubt::none;  // of the noise of the whole image
 };
 
 struct Report {
@@ -64,6 +67,33 @@ struct Report {
   std::string machine;
   bool interrupted = false;
 };
+
+/// Why an error is not to be relied upon, the worst first: rare bright samples, of the run or of the
+/// reference, which make it and its interval come out too low; a reference whose own error comes near it or
+/// is not well known itself; one whose own error is not known at all.
+enum class ErrorDoubt { none, rare_bright_samples, reference_noise, reference_unknown };
+
+[[nodiscard]] ErrorDoubt error_doubt(const Report& report, const ReportRun& run,
+                                     const ReportRow& row) noexcept;
+
+/// Whether the reference's own error is at most a third of the row's, and itself known: its noise estimate is
+/// reliable, and at most 20 %, beyond which its pixels are no measure of a relative error.
+[[nodiscard]] bool reference_suffices(const Report& report, const ReportRow& row) noexcept;
+
+/// Seconds until a run's noise was, or would be, 1 %.
+struct TimeToNoise {
+  enum class Basis {
+    at_most,      // the first row with a noise has less
+    measured,     // between two rows, along the straight line between them on logarithmic axes
+    extrapolated  // beyond the last row, as the root of the time
+  };
+  double seconds = 0;
+  Basis basis = Basis::measured;
+  bool reliable = true;  // the noise of the rows that it comes from
+};
+
+/// Nothing where no row has a noise.
+[[nodiscard]] std::optional<TimeToNoise> time_to_one_percent(const ReportRun& run) noexcept;
 
 /// Whether the bias test's verdict can be believed: the variances that it goes by are too small where rare
 /// bright samples carry them, and a sound image then fails.

@@ -10,15 +10,13 @@
 #include "app/interrupt.h"
 #include "app/plot_picture.h"
 #include "app/render_options.h"
-#include "app/report_files.h"
-#include "app/report_page.h"
+#include "app/report_folder.h"
 #include "app/report_plot.h"
 #include "app/report_reference.h"
 #include "app/report_run.h"
 #include "app/report_table.h"
 #include "core/error.h"
 #include "core/timer.h"
-#include "io/image_file.h"
 #include "render/first_hits.h"
 #include "render/parallel.h"
 
@@ -64,11 +62,17 @@ std::vector<T> once_each(const std::vector<T>& values) {
   return kept;
 }
 
+std::vector<Estimator> estimators_of(const ReportOptions& options) {
+  std::vector<Estimator> estimators;
+  for (const std::string& name : once_each(options.estimators))
+    estimators.push_back(name == "analog" ? Estimator::analog : Estimator::implicit);
+  return estimators;
+}
+
 ReportPlan plan_of(const ReportOptions& options, const Job& job) {
   ReportPlan plan;
   plan.budget = budget_of(options.render);
-  for (const std::string& name : once_each(options.estimators))
-    plan.estimators.push_back(name == "analog" ? Estimator::analog : Estimator::implicit);
+  plan.estimators = estimators_of(options);
   plan.threads = options.threads.empty() ? std::vector<int>{job.threads} : once_each(options.threads);
   plan.quiet = options.render.quiet;
   for (const int threads : plan.threads)
@@ -80,8 +84,8 @@ ReportPlan plan_of(const ReportOptions& options, const Job& job) {
 
 // Nothing without OpenGL, which only the plot needs.
 std::optional<Image8> draw_plot_of(const Report& report) {
-  constexpr int kWidth = 960;
-  constexpr int kHeight = 600;
+  constexpr int kWidth = 1200;
+  constexpr int kHeight = 750;
   try {
     return plot_picture(report_plot(report), kWidth, kHeight);
   } catch (const Error& error) {
@@ -94,39 +98,49 @@ std::optional<Image8> draw_plot_of(const Report& report) {
 void refuse_reference_inside(const ReportOptions& options) {
   if (options.reference.empty()) return;
   std::error_code error;
-  const auto folder = std::filesystem::absolute(options.reference, error).parent_path();
-  if (std::filesystem::equivalent(folder, options.render.output, error))
+  const auto named = std::filesystem::absolute(options.reference, error).parent_path();
+  const auto real = std::filesystem::canonical(options.reference, error).parent_path();
+  if (std::filesystem::equivalent(named, options.render.output, error) ||
+      std::filesystem::equivalent(real, options.render.output, error))
     throw Error(Place{options.reference, 0, 0},
                 "the reference lies in the folder that the report is written into; use another -o");
 }
 
-int run_report(const ReportOptions& options) {
-  check_folder(options.render.output);
+void check_outputs(const ReportOptions& options) {
+  check_folder(options.render.output, report_file_names(estimators_of(options), once_each(options.threads)));
   refuse_reference_inside(options);
-  Report report;
+}
+
+// The scene, the pixels that count, and what the runs are held against.
+void prepare(const ReportOptions& options, Report& report, ReportPlan& plan, const std::atomic<bool>& stop) {
   report.date = utc_date();
   report.machine = machine_name();
   const Timer setup;
   report.job = prepare_job(options.render);
   report.setup_seconds = setup.seconds();
-  const ReportPlan plan = plan_of(options, report.job);
-  if (!options.reference.empty())
-    report.reference = read_reference(options.reference, report.job, plan.budget);
-  const std::atomic<bool>& stop = watch_interrupts();
+  plan = plan_of(options, report.job);
   report.mask = first_hits(report.job, stop).mask;
-  if (options.reference.empty())
-    report.reference =
-        make_reference(report.job, reference_budget(plan.budget, options.reference_spp), plan.quiet, stop);
+  report.reference =
+      options.reference.empty()
+          ? make_reference(report.job, reference_budget(plan.budget, options.reference_spp), plan.quiet, stop)
+          : read_reference(options.reference, report.job, plan.budget, report.mask);
+}
+
+int run_report(const ReportOptions& options) {
+  check_outputs(options);
+  const std::atomic<bool>& stop = watch_interrupts();
+  Report report;
+  ReportPlan plan;
+  prepare(options, report, plan, stop);
   make_runs(report, plan, stop);
   report.interrupted = stop;
   if (report.runs.empty())
     throw Error(Fault::runtime, "interrupted before the first pass was complete; nothing was written");
-  write_report_data(report, options.render.output);
-  const std::optional<Image8> plot = draw_plot_of(report);
-  if (plot) write_png(options.render.output + "/report.png", *plot, {});
-  const std::string page = report_page(report, plot);
-  write_file(options.render.output + "/index.html", std::as_bytes(std::span(page)));
-  std::cout << report_text(report);
+  // First, so that a folder that cannot be written any longer does not cost the work.
+  std::cout << report_text(report) << std::flush;
+  write_report(report, options.render.output);
+  // Last, because it takes OpenGL, and a broken driver may end the program.
+  if (const auto plot = draw_plot_of(report)) add_report_plot(report, *plot, options.render.output);
   if (report.interrupted) std::cerr << "meander: interrupted; wrote what was complete\n";
   return 0;
 }

@@ -1,4 +1,4 @@
-// A report as text and as files of a folder.
+// A report as the texts of its files.
 #pragma once
 
 #include <string>
@@ -14,13 +14,5 @@ namespace meander {
 
 /// The same by run, with what the report is of and made by; null where there is no value.
 [[nodiscard]] std::string report_json(const Report& report);
-
-/// Refuses before long work what writing there would refuse after it: a name that is no folder, or a folder
-/// that cannot be made or written. Leaves nothing behind. Error (input).
-void check_folder(const std::string& folder);
-
-/// Makes the folder and writes report.csv, report.json, reference.exr and the last image of every run. Error
-/// (input) as write_file.
-void write_report_data(const Report& report, const std::string& folder);
 
 }  // namespace meander

@@ -98,6 +98,13 @@ std::string html_table(const TextTable& table) {
   return text + "</table>\n";
 }
 
+// A picture without such pixels counts whole.
+std::string counted_text(const Report& report) {
+  const auto count = std::ranges::count(report.mask, std::uint8_t{1});
+  return count > 0 ? std::to_string(count) + " pixels that show translucent objects"
+                   : "all pixels: none shows a translucent object";
+}
+
 std::string facts(const Report& report) {
   const Tile area = area_of(report.job);
   char setup[32];
@@ -106,8 +113,7 @@ std::string facts(const Report& report) {
       {"Image", std::to_string(area.x1 - area.x0) + " x " + std::to_string(area.y1 - area.y0) +
                     " pixels, seed " + std::to_string(report.job.seed) + ", first sample " +
                     std::to_string(report.job.first_sample)},
-      {"Errors over", std::to_string(std::ranges::count(report.mask, std::uint8_t{1})) +
-                          " pixels that show translucent objects"},
+      {"Errors over", counted_text(report)},
       {"Machine", report.machine},
       {"Date", report.date},
       {"Program", "meander " + version_text()},

@@ -6,6 +6,7 @@
 
 #include "app/linear_picture.h"
 #include "app/progress.h"
+#include "app/run_stats.h"
 #include "core/error.h"
 
 namespace meander {
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kTimesLarger = 16;
 constexpr std::uint64_t kMostSpp = std::uint64_t{1} << 31;
+constexpr const char* kReference = "meander/reference";  // the file that it came from
 
 std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " pixels";
@@ -29,19 +31,35 @@ bool shares_samples(const ImageAttributes& attributes, const Job& job, const Bud
   return own < first + *spp && !ends_before;
 }
 
-void refuse_non_finite(const Image& image, const std::string& path) {
+void refuse_values(const Image& image, const std::string& path) {
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < image.channels; ++c)
-        if (const float value = image.at(x, y)[c]; !std::isfinite(value))
-          throw Error(Place{path, 0, 0}, "the reference has the value " + std::to_string(value) +
-                                             " in pixel " + std::to_string(x) + ", " + std::to_string(y) +
-                                             "; all must be finite");
+      for (int c = 0; c < image.channels; ++c) {
+        const float value = image.at(x, y)[c];
+        if (std::isfinite(value) && (c < 3 || value >= 0)) continue;
+        const bool variance = std::isfinite(value);
+        throw Error(Place{path, 0, 0}, std::string("the reference has the ") +
+                                           (variance ? "variance " : "value ") + std::to_string(value) +
+                                           " in pixel " + std::to_string(x) + ", " + std::to_string(y) +
+                                           (variance ? "; none may be below 0" : "; all must be finite"));
+      }
+}
+
+// What meander's own files say of themselves, to be said again.
+ImageAttributes own_attributes(const ImageAttributes& attributes, const std::string& path) {
+  ImageAttributes own;
+  for (const auto& [name, value] : attributes.text)
+    if (name.starts_with("meander/") && name != kReference) own.text.emplace_back(name, value);
+  for (const auto& [name, value] : attributes.integers)
+    if (name.starts_with("meander/")) own.integers.emplace_back(name, value);
+  own.text.emplace_back(kReference, path);
+  return own;
 }
 
 }  // namespace
 
-ReportReference read_reference(const std::string& path, const Job& job, const Budget& budget) {
+ReportReference read_reference(const std::string& path, const Job& job, const Budget& budget,
+                               std::span<const std::uint8_t> mask) {
   const LoadedImage loaded = read_image(path);
   const Tile area = area_of(job);
   const int width = area.x1 - area.x0;
@@ -55,12 +73,19 @@ ReportReference read_reference(const std::string& path, const Job& job, const Bu
                                        " that the report would draw; use another --seed");
   ReportReference reference;
   reference.image = linear_picture(loaded, path);
-  refuse_non_finite(reference.image, path);
+  refuse_values(reference.image, path);
+  reference.attributes = own_attributes(loaded.attributes, path);
   reference.source = path;
-  if (const auto spp = find_integer(loaded.attributes, "meander/spp"))
+  if (const auto spp = find_integer(loaded.attributes, "meander/spp"); spp && *spp > 0) {
+    reference.spp = static_cast<std::uint64_t>(*spp);
     reference.source += ", " + std::to_string(*spp) + " samples a pixel";
-  if (reference.image.channels < 6)
+  }
+  if (reference.image.channels < 6) {
     reference.source += ", without variance: its own error is unknown and not subtracted";
+    return reference;
+  }
+  reference.noise = estimate_noise(reference.image, mask);
+  reference.doubt = estimate_noise(reference.image, {}).doubt;
   return reference;
 }
 
@@ -77,6 +102,9 @@ ReportReference make_reference(Job job, const Budget& budget, bool quiet, const 
   reference.image = resolve(reference.rendering.film);
   reference.doubt = estimate_noise(reference.rendering.film, {}).doubt;
   reference.rendering.film = {};
+  reference.noise = reference.rendering.noise;
+  reference.spp = reference.rendering.spp;
+  reference.attributes = image_attributes(job, reference.rendering);
   reference.source = "implicit, " + std::to_string(reference.rendering.spp) + " samples a pixel, seed " +
                      std::to_string(job.seed);
   return reference;

@@ -5,9 +5,11 @@
 
 namespace meander {
 
-/// Reads a reference for the job's images. Error (input) when its size is another, or when it holds samples
-/// that the job will draw as well, so that its error would hide theirs.
-[[nodiscard]] ReportReference read_reference(const std::string& path, const Job& job, const Budget& budget);
+/// Reads a reference for the job's images, of which `mask` counts the pixels. Error (input) when its size is
+/// another, a value is not finite or a variance below 0, or when it holds samples that the job will draw as
+/// well, so that its error would hide theirs.
+[[nodiscard]] ReportReference read_reference(const std::string& path, const Job& job, const Budget& budget,
+                                             std::span<const std::uint8_t> mask);
 
 /// Renders one with the implicit estimator and another seed, the job's plus one. Error (runtime) when `stop`
 /// became true before it was done: nothing can be said without it.

@@ -98,8 +98,11 @@ std::optional<Fireflies> find_fireflies(const Report& report, const Job& job, st
 }
 
 void judge(const Report& report, const Job& job, ReportRun& run, const std::atomic<bool>& stop) {
-  const Image& reference = report.reference.image;
-  if (run.last.spp >= kLeastTestedSpp && reference.channels >= 6) run.bias = z_test(run.image, reference);
+  const ReportReference& reference = report.reference;
+  // A file that does not say how many samples it has is taken to have enough.
+  const std::uint64_t least = std::min(run.last.spp, reference.spp.value_or(kLeastTestedSpp));
+  if (least >= kLeastTestedSpp && reference.image.channels >= 6)
+    run.bias = z_test(run.image, reference.image);
   // The samples, and so their tail, are the same on any number of threads.
   const auto same = std::ranges::find_if(report.runs, [&](const ReportRun& other) {
     return other.estimator == run.estimator && other.fireflies;

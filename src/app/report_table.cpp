@@ -18,15 +18,39 @@ std::string number(double value, const char* format = "%.3g") {
 std::string plain(double value) { return number(value, value >= 99.95 ? "%.0f" : "%.3g"); }
 std::string percent(double fraction) { return plain(100 * fraction); }
 
-bool is_unsure(const ReportRow& row) { return row.error.reference_mse && !row.error.reference_suffices(); }
-
 bool has_doubt(const ReportRow& row) {
   return std::isfinite(row.noise) && row.noise_doubt != NoiseDoubt::none;
 }
 
-bool any_row(const Report& report, bool (*has)(const ReportRow&)) {
-  return std::ranges::any_of(report.runs,
-                             [&](const ReportRun& run) { return std::ranges::any_of(run.rows, has); });
+// Where there is an error to be doubted; that the reference's own is unknown is a note of its own.
+bool is_doubted(const Report& report, const ReportRun& run, const ReportRow& row) {
+  const ErrorDoubt doubt = error_doubt(report, run, row);
+  return std::isfinite(row.error.mse) && doubt != ErrorDoubt::none && doubt != ErrorDoubt::reference_unknown;
+}
+
+template <class Has>
+bool any_row(const Report& report, const Has& has) {
+  return std::ranges::any_of(report.runs, [&](const ReportRun& run) {
+    return std::ranges::any_of(run.rows, [&](const ReportRow& row) { return has(run, row); });
+  });
+}
+
+// Either may be so where both are; a row is marked once.
+bool any_rare(const Report& report) {
+  return any_row(report, [&](const ReportRun& run, const ReportRow& row) {
+    return is_doubted(report, run, row) && error_doubt(report, run, row) == ErrorDoubt::rare_bright_samples;
+  });
+}
+
+bool any_insufficient(const Report& report) {
+  return any_row(report, [&](const ReportRun& run, const ReportRow& row) {
+    return is_doubted(report, run, row) && report.reference.noise && !reference_suffices(report, row);
+  });
+}
+
+std::string interval_text(const DebiasedError& error, const std::string& mark) {
+  if (!std::isfinite(error.rms_high())) return "-";
+  return percent(error.rms_low()) + " - " + percent(error.rms_high()) + mark;
 }
 
 std::string reference_error(const ReportRow& row) {
@@ -39,9 +63,19 @@ std::string bias_text(const Report& report, const ReportRun& run) {
          ", p " + number(bias_p(*run.bias), "%.2g");
 }
 
-std::string one_percent_text(const ReportRow& last) {
-  if (!std::isfinite(last.noise)) return "-";
-  return plain(last.seconds_to_one_percent()) + (last.noise <= 0.01 ? " measured" : " extrapolated");
+std::string one_percent_text(const ReportRun& run) {
+  const std::optional<TimeToNoise> time = time_to_one_percent(run);
+  if (!time) return "-";
+  const std::string seconds = plain(time->seconds) + (time->reliable ? "" : "?");
+  switch (time->basis) {
+    case TimeToNoise::Basis::at_most:
+      return "<= " + seconds;
+    case TimeToNoise::Basis::measured:
+      return seconds + " measured";
+    case TimeToNoise::Basis::extrapolated:
+      break;
+  }
+  return seconds + " extrapolated";
 }
 
 void append_columns(const TextTable& table, std::string& text) {
@@ -69,11 +103,11 @@ TextTable budget_table(const Report& report) {
                   {}};
   for (const ReportRun& run : report.runs) {
     for (const ReportRow& row : run.rows) {
+      const std::string mark = is_doubted(report, run, row) ? "?" : "";
       table.rows.push_back(
           {std::string(estimator_name(run.estimator)), std::to_string(run.threads), std::to_string(row.spp),
            number(row.seconds, "%.2f"), percent(row.noise) + (has_doubt(row) ? "?" : ""),
-           percent(row.error.rms()) + (is_unsure(row) ? "?" : ""),
-           percent(row.error.rms_low()) + " - " + percent(row.error.rms_high()), reference_error(row),
+           percent(row.error.rms()) + mark, interval_text(row.error, mark), reference_error(row),
            number(static_cast<double>(row.counters.walks) / row.seconds / 1e6),
            number(static_cast<double>(row.counters.steps) / row.seconds / 1e6), number(row.efficiency())});
     }
@@ -88,7 +122,7 @@ TextTable run_table(const Report& report) {
   for (const ReportRun& run : report.runs) {
     const auto& found = run.fireflies;
     table.rows.push_back({std::string(estimator_name(run.estimator)), std::to_string(run.threads),
-                          one_percent_text(run.rows.back()), bias_text(report, run),
+                          one_percent_text(run), bias_text(report, run),
                           found ? plain(found->quantile) + " x mean" : "-",
                           found ? plain(found->largest) + " x mean" : "-",
                           found ? std::to_string(found->samples) : "too few", run.walk});
@@ -98,13 +132,17 @@ TextTable run_table(const Report& report) {
 
 std::vector<std::string> report_notes(const Report& report) {
   std::vector<std::string> notes{"Reference: " + report.reference.source + "."};
-  if (any_row(report, [](const ReportRow& row) { return row.error.reference_mse.has_value(); }))
+  if (any_row(report, [](auto&, const ReportRow& row) { return row.error.reference_mse.has_value(); }))
     notes.push_back("The reference's own error, a column of the table, is subtracted from the others.");
-  if (any_row(report, has_doubt))
+  if (any_row(report, [](auto&, const ReportRow& row) { return has_doubt(row); }))
     notes.push_back("noise?: too few samples, too few pixels or rare bright samples make it unreliable.");
-  if (any_row(report, is_unsure))
+  if (any_rare(report))
     notes.push_back(
-        "error?: the reference's own is above a third of it; --reference-spp makes that smaller.");
+        "error?: rare bright samples, of the run or of the reference, make it and its interval too low.");
+  if (any_insufficient(report))
+    notes.push_back(
+        "error?: the reference's own is above a third of it, or is not well known; --reference-spp makes "
+        "that smaller.");
   if (std::ranges::any_of(report.runs,
                           [&](const ReportRun& run) { return run.bias && !bias_is_reliable(report, run); }))
     notes.push_back(

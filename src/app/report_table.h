@@ -13,7 +13,8 @@ struct TextTable {
   std::vector<std::vector<std::string>> rows;  // each as long as the header
 };
 
-/// One row a budget. An error that the reference's own comes too near is followed by "?".
+/// One row a budget. An error in doubt (error_doubt) is followed by "?", and so is its interval; what has no
+/// value is "-".
 [[nodiscard]] TextTable budget_table(const Report& report);
 
 /// One row a run: what is found once it is complete.

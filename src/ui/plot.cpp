@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "ui/interface.h"
+#include "ui/plot_layout.h"
 #include "ui/style.h"
 
 namespace meander {
@@ -26,8 +29,15 @@ constexpr float kBar = 1.6f;
 constexpr float kMark = 3.2f;
 constexpr float kDash = 6;
 constexpr float kZoom = 1.1f;  // of the interface's text
+constexpr float kLegendLine = 18;
+constexpr float kLegendKey = 38;     // the line before a name
+constexpr std::size_t kTallest = 4;  // names in a column of the legend
+constexpr float kMargin = 8;         // of the legend from the axes
+constexpr float kClear = kMark + 2;  // of words from curves
 
 bool usable(const PlotPoint& p) { return p.x > 0 && p.y > 0 && std::isfinite(p.x) && std::isfinite(p.y); }
+
+bool has_bar(const PlotPoint& p) { return p.y_low > 0 && p.y_high > p.y_low && std::isfinite(p.y_high); }
 
 class Drawing {
  public:
@@ -48,13 +58,14 @@ class Drawing {
     empty_ = xs.empty();
     x_ = plot_axis(xs);
     y_ = plot_axis(ys);
+    place_legend(ys);
   }
 
   void draw() {
     grid();
     list_.PushClipRect(low_, high_);
     guide();
-    for (std::size_t i = 0; i < plot_.series.size(); ++i) curve(plot_.series[i], i);
+    for (std::size_t i = 0; i < plot_.series.size(); ++i) curve(plot_.series[i], style_of(i));
     list_.PopClipRect();
     list_.AddRect(low_, high_, kInk);
     text(strong_font(), {low_.x, 8}, kInk, plot_.title);
@@ -64,6 +75,7 @@ class Drawing {
     if (empty_)
       text(plain_font(), {0.5f * (low_.x + high_.x) - 22, 0.5f * (low_.y + high_.y)}, kInk, "no data");
     legend();
+    name_guide();
   }
 
  private:
@@ -73,6 +85,14 @@ class Drawing {
   }
   void text(ImFont* font, ImVec2 at, ImU32 color, const std::string& words) {
     list_.AddText(font, size_of(font), at, color, words.c_str());
+  }
+
+  // The number of a series' colour and mark.
+  [[nodiscard]] std::size_t style_of(std::size_t i) const {
+    const auto end = plot_.series.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    const auto measured =
+        std::count_if(plot_.series.begin(), end, [](auto& series) { return series.measured; });
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(measured, 1)) - 1;
   }
 
   [[nodiscard]] ImVec2 at(double x, double y) const {
@@ -121,22 +141,56 @@ class Drawing {
     }
   }
 
-  void guide() {
-    if (empty_ || plot_.guide_slope == 0 || plot_.series.empty()) return;
+  // The part of the guide that is in sight, from the left; nothing where there is none.
+  [[nodiscard]] std::optional<PlotBox> guide_line() const {
+    if (empty_ || plot_.guide_slope == 0 || plot_.series.empty()) return std::nullopt;
     const auto& points = plot_.series.front().points;
     const auto last = std::find_if(points.rbegin(), points.rend(), usable);
-    if (last == points.rend()) return;
+    if (last == points.rend()) return std::nullopt;
     const auto on_guide = [&](double x) { return at(x, last->y * std::pow(x / last->x, plot_.guide_slope)); };
     const ImVec2 from = on_guide(std::pow(10, x_.low));
     const ImVec2 to = on_guide(std::pow(10, x_.high));
-    dashes(from, to, kGuide, 1.2f);
-    // Named where a third of the line that is in sight is left behind.
-    const float top = std::clamp(from.y, low_.y, high_.y);
-    const float share = from.y != to.y ? (top - from.y) / (to.y - from.y) : 0;
-    const float place = share + 0.25f * (1 - share);
+    if (from.y == to.y) return PlotBox{from, to};
+    const auto in_sight = [&](ImVec2 end) {
+      const float y = std::clamp(end.y, low_.y, high_.y);
+      return ImVec2(from.x + (y - from.y) / (to.y - from.y) * (to.x - from.x), y);
+    };
+    return PlotBox{in_sight(from), in_sight(to)};
+  }
+
+  void guide() {
+    if (const auto line = guide_line()) dashes(line->low, line->high, kGuide, 1.2f);
+  }
+
+  // Where there is room for its name.
+  void name_guide() {
+    const auto line = guide_line();
+    if (!line) return;
     const std::string words = plot_.guide_slope == -0.5 ? "slope −1/2" : "slope";
-    const float left = from.x + place * (to.x - from.x) - width_of(small_font(), words) - 8;
-    text(small_font(), {left, from.y + place * (to.y - from.y) + 1}, kGuideText, words);
+    const ImVec2 size{width_of(small_font(), words), size_of(small_font())};
+    PlotClutter all = clutter();
+    all.add_line(line->low, line->high);
+    all.add_box(legend_);
+    const auto places = places_beside({low_, high_}, size, line->low, line->high);
+    const auto clear = std::ranges::find_if(
+        places, [&](const PlotBox& place) { return all.covered(place, kClear - 1) == 0; });
+    if (clear != places.end()) text(small_font(), clear->low, kGuideText, words);
+  }
+
+  // The curves and their bars.
+  [[nodiscard]] PlotClutter clutter() const {
+    PlotClutter curves;
+    for (const PlotSeries& series : plot_.series) {
+      const PlotPoint* before = nullptr;
+      for (const PlotPoint& p : series.points) {
+        if (!usable(p)) continue;
+        const ImVec2 here = at(p.x, p.y);
+        if (has_bar(p)) curves.add_line(at(p.x, p.y_high), at(p.x, p.y_low));
+        curves.add_line(before ? at(before->x, before->y) : here, here);
+        before = &p;
+      }
+    }
+    return curves;
   }
 
   void curve(const PlotSeries& series, std::size_t number) {
@@ -145,7 +199,7 @@ class Drawing {
     for (const PlotPoint& p : series.points) {
       if (!usable(p)) continue;
       const ImVec2 here = at(p.x, p.y);
-      if (p.y_low > 0 && p.y_high > p.y_low && std::isfinite(p.y_high)) {
+      if (has_bar(p)) {
         const float top = at(p.x, p.y_high).y;
         const float bottom = at(p.x, p.y_low).y;
         list_.AddLine({here.x, top}, {here.x, bottom}, color, kBar);
@@ -174,26 +228,65 @@ class Drawing {
     }
   }
 
-  void legend() {
+  [[nodiscard]] float column_width() const {
     float widest = 0;
     for (const PlotSeries& series : plot_.series)
       widest = std::max(widest, width_of(plain_font(), series.name));
+    return widest + kLegendKey + 16;
+  }
+
+  [[nodiscard]] ImVec2 legend_size() const {
+    const std::size_t count = plot_.series.size();
+    const std::size_t columns = (count + kTallest - 1) / kTallest;
+    return {static_cast<float>(columns) * column_width(),
+            static_cast<float>(std::min(count, kTallest)) * kLegendLine + 8};
+  }
+
+  // Where it covers no curve, and as little of the guide as can be; room is made above where there is none.
+  void place_legend(std::vector<double> ys) {
+    const ImVec2 size = legend_size();
+    const auto places = places_at_edges({low_, high_}, size, kMargin);
     if (plot_.series.empty()) return;
-    constexpr float kLine = 18;
-    const ImVec2 corner{high_.x - widest - 58, low_.y + 8};
-    const float bottom = corner.y + kLine * static_cast<float>(plot_.series.size()) + 6;
-    list_.AddRectFilled({corner.x - 8, corner.y - 2}, {high_.x - 8, bottom}, IM_COL32(255, 255, 255, 230));
-    list_.AddRect({corner.x - 8, corner.y - 2}, {high_.x - 8, bottom}, kGrid);
+    legend_ = {{low_.x + kMargin, low_.y + kMargin}, {low_.x + kMargin + size.x, low_.y + kMargin + size.y}};
+    if (best_place(places) || places.empty()) return;
+    const float share = (size.y + 2 * kMargin + kClear) / (high_.y - low_.y);
+    ys.push_back(std::pow(10, y_.low + (y_.high - y_.low) / std::max(1 - share, 0.3f)));
+    y_ = plot_axis(ys);
+    best_place(places);
+  }
+
+  // Takes it, and says whether it covers no curve.
+  bool best_place(const std::vector<PlotBox>& places) {
+    constexpr int kCurve = 1000;  // dots of the guide, which one of a curve is worth
+    const PlotClutter curves = clutter();
+    PlotClutter guide;
+    if (const auto line = guide_line()) guide.add_line(line->low, line->high);
+    int least = std::numeric_limits<int>::max();
+    for (const PlotBox& place : places) {
+      const int cost = kCurve * curves.covered(place, kClear) + guide.covered(place, 0);
+      if (cost >= least) continue;
+      least = cost;
+      legend_ = place;
+    }
+    return least < kCurve;
+  }
+
+  void legend() {
+    if (plot_.series.empty()) return;
+    list_.AddRectFilled(legend_.low, legend_.high, IM_COL32(255, 255, 255, 230));
+    list_.AddRect(legend_.low, legend_.high, kGrid);
     for (std::size_t i = 0; i < plot_.series.size(); ++i) {
-      const float y = corner.y + kLine * static_cast<float>(i) + 11;
-      const ImU32 color = kColors[i % kColors.size()];
+      const float x = legend_.low.x + 8 + static_cast<float>(i / kTallest) * column_width();
+      const float y = legend_.low.y + kLegendLine * static_cast<float>(i % kTallest) + 13;
+      const std::size_t style = style_of(i);
+      const ImU32 color = kColors[style % kColors.size()];
       if (plot_.series[i].measured) {
-        list_.AddLine({corner.x, y}, {corner.x + 30, y}, color, 1.8f);
-        mark({corner.x + 15, y}, color, i);
+        list_.AddLine({x, y}, {x + 30, y}, color, 1.8f);
+        mark({x + 15, y}, color, style);
       } else {
-        dashes({corner.x, y}, {corner.x + 30, y}, color, 1.4f);
+        dashes({x, y}, {x + 30, y}, color, 1.4f);
       }
-      text(plain_font(), {corner.x + 38, y - 8}, kInk, plot_.series[i].name);
+      text(plain_font(), {x + kLegendKey, y - 8}, kInk, plot_.series[i].name);
     }
   }
 
@@ -203,6 +296,7 @@ class Drawing {
   ImVec2 high_;
   PlotAxis x_;
   PlotAxis y_;
+  PlotBox legend_{};
   bool empty_ = false;
 };
 

@@ -17,7 +17,8 @@ struct PlotPoint {
   double y_high = 0;
 };
 
-/// `measured`: a full line with marks; otherwise dashed, as what was only estimated.
+/// `measured`: a full line with marks in a colour of its own; otherwise dashed in that of the series before
+/// it, of which it was only estimated.
 struct PlotSeries {
   std::string name;
   std::vector<PlotPoint> points;

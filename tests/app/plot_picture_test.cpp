@@ -16,15 +16,17 @@ constexpr Color kBlue{0, 114, 178};
 constexpr Color kVermilion{213, 94, 0};
 constexpr Color kGuide{150, 150, 150};
 
+bool is_color(const std::uint8_t* p, const Color& color) {
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(p[c] - color[static_cast<std::size_t>(c)]) > 12) return false;
+  return true;
+}
+
 // The rows of a column in which a colour stands, nearly.
 std::vector<int> rows_of(const Image8& picture, int x, const Color& color, int from = 0) {
   std::vector<int> rows;
-  for (int y = from; y < picture.height; ++y) {
-    const std::uint8_t* p = picture.at(x, y);
-    bool same = true;
-    for (int c = 0; c < 3; ++c) same = same && std::abs(p[c] - color[static_cast<std::size_t>(c)]) <= 12;
-    if (same) rows.push_back(y);
-  }
+  for (int y = from; y < picture.height; ++y)
+    if (is_color(picture.at(x, y), color)) rows.push_back(y);
   return rows;
 }
 
@@ -104,6 +106,61 @@ TEST_CASE("a straight line of slope -1/2 is drawn straight, and the guide lies o
   REQUIRE(pixels > 20);
   const double on_guide = seen.front().second + guide * (x_sum / pixels - seen.front().first);
   CHECK(std::abs(y_sum / pixels - on_guide) < 4);
+}
+
+TEST_CASE("neither the legend nor the name of the guide hides a curve") {
+  constexpr std::array<Color, 6> kColors{kBlue,           kVermilion,     Color{0, 158, 115},
+                                         {204, 121, 167}, {86, 180, 233}, {230, 159, 0}};
+  // Flat curves at the top, at the bottom, at both, and all over the plot.
+  const std::vector<std::vector<double>> plots{
+      {1}, {1, 0.01}, {1, 0.5, 0.01}, {1, 0.5, 0.2, 0.1, 0.04, 0.01}, {1, 1.1, 1.2, 1.3, 1.4, 1.5}};
+  for (const std::vector<double>& levels : plots) {
+    Plot plot{"A title", "seconds", "error", {}, -0.5};
+    for (const double level : levels)
+      plot.series.push_back(
+          {"a long name", {{0.1, level, 0, 0}, {1, level, 0, 0}, {100, level, 0, 0}}, true});
+    const Image8 picture = plot_picture(plot, 1200, 750);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      CAPTURE(levels.size());
+      CAPTURE(i);
+      // Along the row of the mark at its left end, from there to the other end.
+      int row = 0;
+      int first = 0;
+      int last = 0;
+      int most = 0;
+      for (int y = 0; y < picture.height; ++y) {
+        std::vector<int> columns;
+        for (int x = 0; x < picture.width; ++x)
+          if (is_color(picture.at(x, y), kColors[i])) columns.push_back(x);
+        if (static_cast<int>(columns.size()) <= most) continue;
+        most = static_cast<int>(columns.size());
+        first = columns.front();
+        last = columns.back();
+        row = y;
+      }
+      CAPTURE(row);
+      CHECK(last - first > 880);
+      CHECK(most > last - first - 6);
+    }
+  }
+}
+
+TEST_CASE("an estimate has the colour of what was measured before it") {
+  Plot plot = falling();
+  PlotSeries estimate{"its estimate", {}, false};
+  for (const PlotPoint& p : plot.series[0].points) estimate.points.push_back({p.x, 0.1 * p.y, 0, 0});
+  plot.series.push_back(estimate);
+  plot.series.push_back({"another", {{1, 0.01, 0, 0}, {100, 0.01, 0, 0}}, true});
+  const Image8 picture = plot_picture(plot, 1200, 750);
+  int twice = 0;
+  int other = 0;
+  for (int x = 300; x < 900; ++x) {
+    const auto rows = rows_of(picture, x, kBlue);
+    twice += !rows.empty() && rows.back() - rows.front() > 100;
+    other += !rows_of(picture, x, kVermilion).empty();
+  }
+  CHECK(twice > 150);  // where a dash is
+  CHECK(other > 300);
 }
 
 TEST_CASE("no point, one point, equal points and points that are none are all drawn") {

@@ -32,3 +32,23 @@ TEST_CASE("the closing line says what was reached, and what is left of the error
   CHECK(closing_line({3000, 20, 0.00999}, {{}, 30.0, 0.01}) == "reached 0.999 % in 20.0 s (error)");
   CHECK(closing_line({64, 2, 0.1}, {64, {}, {}}) == "");
 }
+
+TEST_CASE("a plain line is due once the end is foreseen, then every five seconds") {
+  const double unknown = std::numeric_limits<double>::infinity();
+  LineTimes lines({{}, 30.0, 0.01});
+  CHECK_FALSE(lines.due({1, 0.1, unknown}));
+  CHECK_FALSE(lines.due({2, 0.2, 0.2, false}));
+  CHECK(lines.due({4, 0.4, 0.15}));
+  CHECK_FALSE(lines.due({8, 0.8, 0.1}));
+  CHECK_FALSE(lines.due({53, 5.3, 0.04}));
+  CHECK(lines.due({54, 5.5, 0.04}));
+  CHECK_FALSE(lines.due({104, 10.4, 0.03}));
+  // What never gets reliable is said after five seconds.
+  LineTimes doubtful({{}, 30.0, {}});
+  CHECK_FALSE(doubtful.due({40, 4.0, 0.2, false}));
+  CHECK(doubtful.due({51, 5.1, 0.2, false}));
+  // Less than a second is left.
+  LineTimes brief({64, {}, {}});
+  CHECK_FALSE(brief.due({16, 0.25, 0.1}));
+  CHECK_FALSE(brief.due({32, 0.5, 0.07}));
+}

@@ -1,36 +1,17 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
+#include <regex>
 #include <sstream>
 
 #include "app/report_files.h"
 #include "app/report_page.h"
 #include "app/report_plot.h"
-#include "app/report_reference.h"
-#include "app/report_run.h"
 #include "app/report_table.h"
-#include "render/first_hits.h"
-#include "render/small_scene.h"
+#include "report_sample.h"
 
 using namespace meander;
-
-namespace {
-
-const std::atomic<bool> kNever{false};
-
-Report prepared() {
-  Report report;
-  Scene scene = mixed_scene();
-  scene.name = "<b>\"jade\" & wax</b>";
-  report.job = make_job(std::move(scene), 2);
-  report.mask = first_hits(report.job, kNever).mask;
-  report.reference = make_reference(report.job, {32, {}, {}}, true, kNever);
-  return report;
-}
-
-ReportPlan plan_to(const Budget& budget) { return {budget, {Estimator::implicit}, {2}, true}; }
-
-}  // namespace
 
 TEST_CASE("a report's rows are the renders of their budgets") {
   Report report = prepared();
@@ -86,6 +67,143 @@ TEST_CASE("runs are named after their threads where they differ in them") {
   report.runs[1].estimator = Estimator::analog;
   CHECK(run_name(report, report.runs[0]) == "implicit-1t");
   CHECK(run_name(report, report.runs[1]) == "analog-2t");
+}
+
+namespace {
+
+// A run of one row whose error is 0.1 +- a tenth, beside a reference of a given error of its own.
+Report one_row(double reference_error, const NoiseEstimate& reference_noise) {
+  Report report;
+  report.runs.resize(1);
+  ReportRow row;
+  row.error = {0.01, 0.001, reference_error * reference_error, 100};
+  report.runs[0].rows = {row};
+  report.reference.noise = reference_noise;
+  return report;
+}
+
+ErrorDoubt doubt_of(const Report& report) {
+  return error_doubt(report, report.runs[0], report.runs[0].rows[0]);
+}
+
+bool says(const Report& report, const std::string& words) {
+  return report_text(report).find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("an error is relied upon where the reference suffices and nothing rare is met") {
+  CHECK(doubt_of(one_row(0.033, {0.19, 0.01, 0.19, NoiseDoubt::none})) == ErrorDoubt::none);
+  CHECK(doubt_of(one_row(0.034, {0.19, 0.01, 0.19, NoiseDoubt::none})) == ErrorDoubt::reference_noise);
+  CHECK(doubt_of(one_row(0.033, {0.21, 0.01, 0.21, NoiseDoubt::none})) == ErrorDoubt::reference_noise);
+  CHECK(doubt_of(one_row(0.033, {0.19, 0.2, 0.19, NoiseDoubt::too_few_pixels})) ==
+        ErrorDoubt::reference_noise);
+  Report report = one_row(0.033, {0.19, 0.01, 0.1, NoiseDoubt::rare_bright_samples});
+  CHECK(doubt_of(report) == ErrorDoubt::rare_bright_samples);
+  report.reference.noise.reset();
+  CHECK(doubt_of(report) == ErrorDoubt::reference_unknown);
+  report.runs[0].rows[0].noise_doubt = NoiseDoubt::rare_bright_samples;
+  CHECK(doubt_of(report) == ErrorDoubt::rare_bright_samples);
+}
+
+TEST_CASE("rare bright samples that a run meets later count for its first rows") {
+  Report report = one_row(0.033, {0.1, 0.01, 0.1, NoiseDoubt::none});
+  report.runs[0].rows.push_back(report.runs[0].rows[0]);
+  report.runs[0].rows[1].noise_doubt = NoiseDoubt::rare_bright_samples;
+  CHECK(doubt_of(report) == ErrorDoubt::rare_bright_samples);
+}
+
+TEST_CASE("an error in doubt is marked with its interval, and a line says why") {
+  const Report sound = one_row(0.01, {0.1, 0.01, 0.1, NoiseDoubt::none});
+  CHECK(budget_table(sound).rows[0][5] == "10");
+  CHECK(budget_table(sound).rows[0][6] == "8.97 - 10.9");
+  CHECK_FALSE(says(sound, "error?"));
+  Report noisy = one_row(0.05, {0.1, 0.01, 0.1, NoiseDoubt::none});
+  CHECK(budget_table(noisy).rows[0][5] == "10?");
+  CHECK(budget_table(noisy).rows[0][6] == "8.97 - 10.9?");
+  CHECK(says(noisy, "error?: the reference's own"));
+  CHECK_FALSE(says(noisy, "error?: rare"));
+  noisy.runs[0].rows[0].error.standard_error = std::numeric_limits<double>::quiet_NaN();
+  CHECK(budget_table(noisy).rows[0][6] == "-");  // of one pixel
+  const Report rare = one_row(0.01, {0.1, 0.01, 0.05, NoiseDoubt::rare_bright_samples});
+  CHECK(budget_table(rare).rows[0][6] == "8.97 - 10.9?");
+  CHECK(says(rare, "error?: rare bright samples"));
+}
+
+TEST_CASE("what has no value is a dash, an empty cell or null, never a word of the machine's") {
+  Report report = prepared();
+  report.runs.resize(1);
+  ReportRow row;
+  row.noise = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  row.error = {nan, nan, nan, 0};
+  row.plain.rmse = row.plain.psnr = nan;
+  report.runs[0].rows = {row};
+  report.runs[0].image = report.reference.image;
+  for (const std::size_t column : {4, 5, 6, 7, 8, 9, 10}) {
+    CAPTURE(column);
+    CHECK(budget_table(report).rows[0][column] == "-");
+  }
+  CHECK(run_table(report).rows[0][2] == "-");
+  CHECK(report_json(report).find("\"error\": null") != std::string::npos);
+  CHECK(report_json(report).find("\"error_is\": null") != std::string::npos);
+  std::string page = report_page(report, std::nullopt);
+  while (page.find("base64,") != std::string::npos) {
+    const std::size_t start = page.find("base64,");
+    page.erase(start, page.find('"', start) - start);
+  }
+  const std::regex machine_word("(^|[^A-Za-z])(nan|inf|infinity)([^A-Za-z]|$)", std::regex::icase);
+  for (const std::string& text : {report_csv(report), report_json(report), report_text(report), page}) {
+    std::smatch found;
+    CHECK_FALSE(std::regex_search(text, found, machine_word));
+    CHECK(found.str() == "");
+  }
+}
+
+namespace {
+
+ReportRun run_with_noises(std::initializer_list<std::pair<double, double>> rows) {
+  ReportRun run;
+  for (const auto& [seconds, noise] : rows) {
+    ReportRow row;
+    row.seconds = seconds;
+    row.noise = noise;
+    run.rows.push_back(row);
+  }
+  return run;
+}
+
+std::string words_of(const ReportRun& run) {
+  Report report;
+  report.runs = {run};
+  return run_table(report).rows[0][2];
+}
+
+}  // namespace
+
+TEST_CASE("the time to 1 % lies between two rows, at most at the first or beyond the last") {
+  const double unknown = std::numeric_limits<double>::infinity();
+  CHECK(words_of(run_with_noises({{1, unknown}})) == "-");
+  CHECK(words_of(run_with_noises({{1, unknown}, {2, 0.04}, {4, 0.02}})) == "16 extrapolated");
+  // Halfway between 2 % and 0.5 %, on logarithmic axes: sqrt(4 * 9).
+  CHECK(words_of(run_with_noises({{1, unknown}, {2, 0.04}, {4, 0.02}, {9, 0.005}, {18, 0.004}})) ==
+        "6 measured");
+  CHECK(words_of(run_with_noises({{1, 0.02}, {4, 0.01}})) == "4 measured");
+  CHECK(words_of(run_with_noises({{1, unknown}, {2, 0.008}, {4, 0.006}})) == "<= 2");
+  CHECK(words_of(run_with_noises({{1, unknown}, {2, 0.0}})) == "<= 2");
+  CHECK(words_of(run_with_noises({{2, 0.02}, {4, 0.0}})) == "<= 4");
+  ReportRun doubtful = run_with_noises({{1, 0.02}, {4, 0.005}});
+  doubtful.rows[0].noise_doubt = NoiseDoubt::rare_bright_samples;
+  CHECK(words_of(doubtful) == "2? measured");
+}
+
+TEST_CASE("no bias is tested against a reference of few samples") {
+  for (const std::uint64_t spp : {7, 8}) {
+    Report report = prepared();
+    report.reference = make_reference(report.job, {spp, {}, {}}, true, kNever);
+    make_runs(report, plan_to({8, {}, {}}), kNever);
+    CHECK(report.runs.at(0).bias.has_value() == (spp == 8));
+  }
 }
 
 TEST_CASE("rare bright samples put a verdict of bias in doubt") {

@@ -2,6 +2,7 @@
 # report.sh MEANDER SOURCE_DIR: what report writes, what it says of a bias, and what it refuses.
 set -euo pipefail
 meander=$1
+source=$2
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 cd "$dir"
@@ -63,9 +64,11 @@ for run in report['runs']:
         assert set(again) < set(row) and float(row['error']) == again['error'], (row, again)
         assert float(row['error_low']) < float(row['error']) < float(row['error_high'])
         assert float(row['reference_error']) > 0 and row['reference_suffices'] == 'true'
-        # Nothing subtracted, it is larger by the reference's own.
+        # Nothing subtracted, it is larger by the reference's own; it divides by the pixel's square alone, which
+        # in this smooth picture is near its neighbours'.
         whole = float(row['error']) ** 2 + float(row['reference_error']) ** 2
-        assert abs(float(row['relmse']) / whole - 1) < 1e-6, (row['relmse'], whole)
+        assert abs(float(row['relmse']) / whole - 1) < 0.05, (row['relmse'], whole)
+        assert row['error_is'] == 'reliable' or int(row['spp']) < 8, row
         assert math.isclose(float(row['efficiency']), 1 / (float(row['error']) ** 2 * float(row['seconds'])), rel_tol=1e-9)
         assert math.isclose(float(row['walks_per_second']), int(row['walks']) / float(row['seconds']), rel_tol=1e-9)
     assert of_run[-1]['noise_is'] == 'reliable' == of_run[-1]['bias_test_is'] and of_run[0]['noise_is'] == ''
@@ -83,7 +86,7 @@ PY
 
 # The page holds its pictures and asks for nothing beside itself.
 python3 - <<'PY' || fail "the page"
-import base64, re
+import base64, re, struct, zlib
 from html.parser import HTMLParser
 page = open('deep/one/index.html').read()
 class Tags(HTMLParser):
@@ -106,7 +109,18 @@ tags.feed(page)
 tags.close()
 assert not tags.open and not re.search('https?:|url\\(|@import', page)
 # The plot, the reference, and an image and its error for either estimator: other threads give the same.
-assert len(tags.images) == 6 and all(image[:4] == b'\x89PNG' and image[-8:-4] == b'IEND' for image in tags.images)
+assert len(tags.images) == 6
+for image in tags.images:
+    assert image[:8] == b'\x89PNG\r\n\x1a\n'
+    width, height, bits, kind = struct.unpack('>IIBB', image[16:26])
+    data, at = b'', 8
+    while at < len(image):
+        size, name = struct.unpack('>I4s', image[at:at + 8])
+        assert zlib.crc32(image[at + 4:at + 8 + size]) == struct.unpack('>I', image[at + 8 + size:at + 12 + size])[0]
+        data += image[at + 8:at + 8 + size] if name == b'IDAT' else b''
+        at += 12 + size
+    assert name == b'IEND' and (bits, kind) == (8, 2)
+    assert len(zlib.decompress(data)) == height * (1 + 3 * width)
 assert tags.images[0] == open('deep/one/report.png', 'rb').read()
 assert tags.cells == 28 * 11 + 4 * 8, tags.cells
 PY
@@ -134,6 +148,30 @@ assert run['contribution_samples'] >= 1e5 and 1 < run['contribution_p99_99'] <= 
 assert run['rows'][-1]['reference_suffices'] is False and '?' in open('tail.txt').read()
 PY
 
+# So few samples of the reference that its pixels are no measure: every error is marked, and a line says so.
+"$meander" report ball.toml -o rough --spp 16 --reference-spp 2 --estimators implicit --quiet > rough.txt
+python3 - <<'PY' || fail "a reference of two samples is relied upon"
+import json
+report = json.load(open('rough/report.json'))
+(run,) = report['runs']
+assert report['reference']['spp'] == 2 and run['bias_test'] is None, report
+assert all(row['reference_suffices'] is False and row['error_is'] != 'reliable' for row in run['rows']), run
+rows = [line.split() for line in open('rough.txt') if line.startswith('implicit ')][:5]
+assert all(row[5].endswith('?') and row[8].endswith('?') for row in rows), rows
+PY
+grep -q "^error?: the reference's own" rough.txt || fail "it goes unmentioned: $(cat rough.txt)"
+
+# In a furnace the first noise is far below 1 %: nothing is extrapolated backwards.
+"$meander" report "$source/scenes/sphere_furnace.toml" -o furnace --width 32 --height 32 --spp 4 --quiet > furnace.txt
+[ "$(grep -c '  <= [0-9.]*  ' furnace.txt)" -eq 2 ] || fail "the time to 1 % in a furnace: $(cat furnace.txt)"
+
+# What is not a terminal hears of the end as soon as it is foreseen.
+"$meander" render ball.toml -o foreseen.exr --error 0.0001 --time 2 2> foreseen.txt
+[ "$(grep -c 'to go (time)' foreseen.txt)" -eq 1 ] || fail "two seconds pass in silence: $(cat foreseen.txt)"
+"$meander" render ball.toml -o brief.exr --spp 1 2> brief.txt
+! grep -q 'to go' brief.txt || fail "what is done at once is foreseen: $(cat brief.txt)"
+grep -q 'noise ?,' brief.txt || fail "one sample has a noise: $(cat brief.txt)"
+
 # A reference that is given: its own error is subtracted where it is known.
 "$meander" render ball.toml -o given.exr --spp 256 --seed 9 --quiet
 "$meander" report ball.toml -o given "${short[@]}" --reference given.exr > given.txt
@@ -148,6 +186,13 @@ import json
 (run,) = json.load(open('plain/report.json'))['runs']
 assert run['bias_test'] is None and run['rows'][0]['reference_error'] is None, run
 PY
+
+# A report's own reference, given to another, is written again with what it says of itself.
+"$meander" report ball.toml -o again "${short[@]}" --reference given/reference.exr > again.txt
+grep -q 'given/reference.exr, 256 samples' again.txt || fail "a reference loses its samples: $(cat again.txt)"
+status=0
+"$meander" report ball.toml -o same "${short[@]}" --reference again/reference.exr --seed 9 2> said.txt || status=$?
+[ $status -eq 2 ] && grep -q 'use another --seed' said.txt || fail "a reference loses its seed"
 
 # A reference 3 % brighter than the truth: the bias test must see it.
 "$meander" render ball.toml -o bright.exr --spp 1024 --seed 9 --quiet --set light.key.radiance=6.18 --set environment.radiance=0.309
@@ -170,6 +215,8 @@ refuse 'none.exr' "${report[@]}" --reference none.exr
 refuse 'use another --seed' "${report[@]}" --reference given.exr --seed 9
 mkdir inside && cp given.exr inside/implicit.exr
 refuse 'use another -o' report ball.toml -o inside --spp 4 --reference inside/implicit.exr
+ln -s inside/implicit.exr link.exr
+refuse 'use another -o' report ball.toml -o inside --spp 4 --reference link.exr
 cmp -s given.exr inside/implicit.exr || fail "the reference was overwritten"
 python3 -c '
 import struct
@@ -181,17 +228,45 @@ refuse '--reference-spp' "${report[@]}" --reference given.exr --reference-spp 8
 refuse 'none.toml: cannot open' report none.toml -o bad
 refuse 'it is not a folder' report ball.toml -o ball.toml
 refuse 'is not a folder' report ball.toml -o ball.toml/bad
+refuse '/proc/bad: the folder cannot be made' report ball.toml -o /proc/bad
+refuse 'without a name' report ball.toml -o ''
+# Before the work, which would be endless.
+mkdir -p taken/index.html
+refuse 'taken/index.html: it is a directory' report ball.toml -o taken --spp 2000000000
+rmdir taken/index.html && rmdir taken || fail "a refusal left something behind"
 refuse 'required' report ball.toml
 
-# An interrupt keeps what is complete.
-"$meander" report ball.toml -o stopped --spp 100000000 --reference given.exr > stopped.txt 2> said.txt &
+# Without OpenGL there is all but the plot, an earlier one's, too, and one line says so.
+[ -s two/report.png ] || fail "there is no plot to lose"
+MESA_GL_VERSION_OVERRIDE=2.1 "$meander" report ball.toml -o two "${short[@]}" --threads 1 > /dev/null 2> said.txt || fail "no OpenGL: $(cat said.txt)"
+[ "$(wc -l < said.txt)" -eq 1 ] && grep -q 'warning: there is no plot' said.txt || fail "no OpenGL: $(cat said.txt)"
+[ ! -e two/report.png ] || fail "the plot of an earlier report is left"
+[ -s two/implicit.exr ] && [ -s two/reference.exr ] && [ -s two/report.csv ] && [ -s two/report.json ] || fail "no OpenGL, no report"
+[ "$(grep -c '<img' two/index.html)" -eq 3 ] || fail "the page without a plot"
+
+# A folder that is spoilt during the work: the table is there, the exit code is 3, and no page tells of it.
+"$meander" report ball.toml -o late --time 2 --estimators implicit --reference given.exr > late.txt 2> late_said.txt &
 process=$!
-sleep 2
+until grep -q '^implicit' late_said.txt || ! kill -0 $process; do sleep 0.05; done
+mkdir -p late/report.csv/full
+status=0
+wait $process || status=$?
+[ $status -eq 3 ] || fail "a folder spoilt during the work gives exit code $status: $(cat late_said.txt)"
+[ "$(grep -c '^meander: ' late_said.txt)" -eq 1 ] && grep -q '^meander: .*late/report.csv' late_said.txt || fail "it is not said: $(cat late_said.txt)"
+grep -q '^implicit' late.txt || fail "the table is lost"
+[ ! -e late/index.html ] && [ ! -e late/report.json ] || fail "a report that is not complete seems to be"
+
+# An interrupt keeps what is complete.
+"$meander" report ball.toml -o stopped --spp 100000000 --reference given.exr > stopped.txt 2> stopping.txt &
+process=$!
+# Before its own handling begins, a background process of this shell is deaf to interrupts.
+until grep -q '^implicit' stopping.txt || ! kill -0 $process; do sleep 0.05; done
+sleep 1
 kill -INT $process
 status=0
 wait $process || status=$?
-[ $status -eq 0 ] || fail "an interrupt gives exit code $status: $(cat said.txt)"
-grep -q interrupted said.txt || fail "an interrupt goes unmentioned"
+[ $status -eq 0 ] || fail "an interrupt gives exit code $status: $(cat stopping.txt)"
+grep -q interrupted stopping.txt || fail "an interrupt goes unmentioned"
 python3 -c '
 import json
 report = json.load(open("stopped/report.json"))
