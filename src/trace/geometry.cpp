@@ -30,13 +30,6 @@ struct Approach {
   double slack;
 };
 
-// Whether a ray misses the ball about a body by more than rounding, or has it behind.
-bool passes_by(const Approach& ray, double reach) noexcept {
-  const double outside = glm::dot(ray.origin, ray.origin) - reach * reach;
-  const double along = glm::dot(ray.origin, DVec3(ray.direction));
-  return outside > 0 && (along > 0 || outside * (1 - 0x1p-18) > along * along);
-}
-
 template <class Unit>
 std::optional<BodyHit> first_hit(const AffineShape<Unit>& shape, const Approach& ray, const Placement&,
                                  double distance) noexcept {
@@ -209,19 +202,16 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, con
   const bool matched = closed && translucent->boundary == Boundary::matched;
   const Rgb sigma_t = matched ? translucent->medium.sigma_t : Rgb(0);
   const DVec3& origin = object.transform.translate;
-  // A transform's axes are at right angles, so that the box reaches farthest.
-  const double reach = (1 + 0x1p-10) * std::sqrt(3.0) * double{size_of(map)};
   if (std::holds_alternative<SphereShape>(object.shape))
-    return {SphereBody(map), origin, size_of(map), reach, closed, matched, false, sigma_t};
+    return {SphereBody(map), origin, size_of(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<BoxShape>(object.shape))
-    return {BoxBody(map), origin, size_of(map), reach, closed, matched, false, sigma_t};
+    return {BoxBody(map), origin, size_of(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<SlabShape>(object.shape))
-    return {SlabBody(map), origin, size_of(map), kInfinity, closed, matched, false, sigma_t};
+    return {SlabBody(map), origin, size_of(map), closed, matched, false, sigma_t};
   SharedMesh mesh = make_mesh(std::get<std::shared_ptr<const Mesh>>(object.shape), map, previous);
   const Real size = largest(mesh->body.half_size());
   const DVec3 center = origin + mesh->center;
-  const double half_diagonal = (1 + 0x1p-10) * glm::length(DVec3(mesh->body.half_size()));
-  return {std::move(mesh), center, size, half_diagonal, closed, matched, false, sigma_t};
+  return {std::move(mesh), center, size, closed, matched, false, sigma_t};
 }
 
 bool Geometry::is_finished() const {
@@ -278,10 +268,8 @@ bool Geometry::leaves_for_good(std::size_t object, const Ray& ray) const noexcep
 
 std::optional<SurfaceHit> Geometry::hit_within(std::size_t object, const Ray& ray,
                                                double distance) const noexcept {
-  const auto hit = approach(
-      object, ray,
-      [&](const auto& shape, const Approach& seen, const Placement& placement) -> std::optional<BodyHit> {
-        if (passes_by(seen, bodies_[object].reach)) return std::nullopt;
+  const auto hit =
+      approach(object, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
         return first_hit(shape, seen, placement, distance);
       });
   if (!hit) return std::nullopt;

@@ -91,7 +91,6 @@ class Geometry {
     std::variant<SphereBody, BoxBody, SlabBody, SharedMesh> shape;
     DVec3 center;
     Real size;
-    double reach;  // no point of it is farther from its centre
     bool closed;   // it holds a medium: its surface has an inside
     bool matched;  // light passes it unscattered
     bool holds_light;
