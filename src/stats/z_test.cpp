@@ -129,9 +129,9 @@ double variance_ratio(const std::vector<Channels>& blocks, int channel) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// Few samples of a skewed quantity that miss its rare bright ones give a mean and a variance that are both too
-// low. But under the hypothesis each image knows the other's variance, up to the ratio of their samples: a
-// block has at least what the other image says.
+// Few samples of a skewed quantity that miss its rare bright ones give a mean and a variance that are both
+// too low. But under the hypothesis each image knows the other's variance, up to the ratio of their samples:
+// a block has at least what the other image says.
 std::vector<Channels> raise_variances(std::vector<Channels> blocks) {
   for (int channel = 0; channel < 3; ++channel) {
     const double ratio = variance_ratio(blocks, channel);
