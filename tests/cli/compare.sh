@@ -235,7 +235,7 @@ expect 2 "meander: --json excludes --quiet $help" a.pfm b.pfm --json --quiet
 expect 2 "meander: --output: is '', but must be the name of a file $help" a.pfm b.pfm -o ''
 expect 2 "meander: --mask: is '', but must be the name of a file $help" a.pfm b.pfm --mask ''
 # A report that cannot be printed is no success, of whatever verb.
-for arguments in 'compare a.pfm a.pfm' 'compare a.pfm a.pfm --json' 'compare --help' 'measure halfspace --color 0.8' \
+for arguments in 'compare a.pfm a.pfm' 'compare a.pfm a.pfm --json' 'compare --help' 'measure slab --tau 1 --walks 100' \
   "convert $source/scenes/wax_knot.toml --to cycles"; do
   status=0
   "$meander" $arguments >/dev/full 2>err.txt || status=$?
