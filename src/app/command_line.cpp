@@ -69,6 +69,14 @@ CLI::Validator finite_number() {
   return number_check("a finite number", [](double) { return true; });
 }
 
+CLI::Validator file_name() {
+  return CLI::Validator(
+      [](const std::string& text) -> std::string {
+        return text.empty() ? "is '', but must be the name of a file" : std::string();
+      },
+      "");
+}
+
 CLI::Validator whole_number() {
   return CLI::Validator(
       [](const std::string& text) -> std::string {

@@ -29,6 +29,8 @@ void add_report_command(CLI::App& app, Action& action);
 [[nodiscard]] CLI::Validator greater_than(double low);
 [[nodiscard]] CLI::Validator number_between(double low, double high);
 [[nodiscard]] CLI::Validator finite_number();
+/// Not empty.
+[[nodiscard]] CLI::Validator file_name();
 /// Digits alone, below 2^64: the parser would take -1 for a very large seed.
 [[nodiscard]] CLI::Validator whole_number();
 

@@ -125,11 +125,23 @@ void refuse_overwriting(const CompareOptions& options) {
   }
 }
 
+struct Picture {
+  Image image;
+  ImageAttributes attributes;
+};
+
+Picture read_picture(const std::string& path) {
+  const LoadedImage loaded = read_image(path);
+  return {linear_picture(loaded, path), loaded.attributes};
+}
+
 int run_compare(const CompareOptions& options) {
   if (!options.output.empty()) check_writable(options.output, kOutputs);
   refuse_overwriting(options);
-  const Image a = linear_picture(read_image(options.a), options.a);
-  const Image b = linear_picture(read_image(options.b), options.b);
+  const Picture first = read_picture(options.a);
+  const Picture second = read_picture(options.b);
+  const Image& a = first.image;
+  const Image& b = second.image;
   if (a.width != b.width || a.height != b.height)
     throw Error(Fault::input, "the images differ in size: " + options.a + " has " + size_text(a) + " and " +
                                   options.b + " " + size_text(b) + " pixels; they must be equal");
@@ -137,7 +149,9 @@ int run_compare(const CompareOptions& options) {
     if (options.limits.z_test && image->channels < 6)
       throw Error(Place{*path, 0, 0}, "carries no variance channels, which --z-test needs");
   const Mask mask = read_mask(options.mask, a);
-  const Comparison comparison = compare_images(a, b, mask, options.limits);
+  Comparison comparison = compare_images(a, b, mask, options.limits);
+  use_stored_noise(first.attributes, comparison.noise_a);
+  use_stored_noise(second.attributes, comparison.noise_b);
   if (!options.output.empty()) write_output(a, b, mask, options);
   print(comparison, options);
   return comparison.passed() ? 0 : 1;
@@ -178,9 +192,9 @@ void add_compare_command(CLI::App& app, Action& action) {
                                       "exit code 1 when they differ: by more "
                                       "than the options allow, or at all when no option allows anything");
   const auto o = std::make_shared<CompareOptions>();
-  verb->add_option("A", o->a, "image")->required();
-  verb->add_option("B", o->b, "reference image")->required();
-  verb->add_option("--mask", o->mask, "image whose non-zero pixels are compared");
+  verb->add_option("A", o->a, "image")->required()->check(file_name());
+  verb->add_option("B", o->b, "reference image")->required()->check(file_name());
+  verb->add_option("--mask", o->mask, "image whose non-zero pixels are compared")->check(file_name());
   verb->add_flag("--z-test", o->limits.z_test,
                  "fail where noise cannot explain the difference (both need variance channels)");
   add_metric_limits(*verb, o->limits);
@@ -189,6 +203,7 @@ void add_compare_command(CLI::App& app, Action& action) {
   CLI::Option* output = verb->add_option(
       "-o,--output", o->output,
       "difference A - B (.exr), or picture of the relative error (.png: orange brighter, blue darker)");
+  output->check(file_name());
   verb->add_option("--scale", o->scale,
                    "multiply what --output shows (.exr: 1; .png: 10, which is full colour at 10 % error)")
       ->check(greater_than(0))

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "film/noise.h"
+#include "app/run_stats.h"
 
 namespace meander {
 namespace {
@@ -16,6 +16,7 @@ using Lines = std::vector<std::string>;
 constexpr std::array<const char*, 3> kChannel{"R", "G", "B"};
 
 std::string number(double value, const char* format = "%.9g") {
+  if (std::isnan(value)) return "undefined";
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), format, value);
   return text.data();
@@ -104,6 +105,30 @@ const char* source_text(ErrorSource source) {
   return "";
 }
 
+ImageNoise noise_of(const Image& image, std::span<const std::uint8_t> mask) {
+  const NoiseEstimate estimate = estimate_noise(image, mask);
+  const bool all = estimate.pixels == static_cast<std::size_t>(image.width) * image.height;
+  return {estimate.noise, estimate.pixels, all ? NoisePixels::all : NoisePixels::mask, estimate.doubt};
+}
+
+// A value or a variance that is not finite leaves no estimate at all.
+std::string doubt_text(const ImageNoise& noise) {
+  return std::isfinite(noise.relative) ? describe(noise.doubt) : "not all values and variances are finite";
+}
+
+bool is_doubted(const std::optional<ImageNoise>& noise) { return noise && !doubt_text(*noise).empty(); }
+
+bool has_rare_samples(const std::optional<ImageNoise>& noise) {
+  return noise && noise->doubt == NoiseDoubt::rare_bright_samples;
+}
+
+// "the object's 5012 pixels"
+std::string pixels_text(const ImageNoise& noise) {
+  const std::string count = std::to_string(noise.pixels) + " pixels";
+  if (noise.over == NoisePixels::all) return "all " + count;
+  return (noise.over == NoisePixels::mask ? "the mask's " : "the object's ") + count;
+}
+
 const char* verdict(bool passed) { return passed ? "passed" : "FAILED"; }
 
 void row(std::string& text, std::string name, const std::string& value) {
@@ -114,11 +139,24 @@ void row(std::string& text, std::string name, const std::string& value) {
 
 std::string with_error(double value, double error) { return number(value) + " +- " + number(error, "%.3g"); }
 
-void put_z_test(std::string& text, const ZTest& z) {
-  row(text, "z_test", verdict(z.passed));
+void put_noise(std::string& text, char image, const std::optional<ImageNoise>& noise) {
+  if (!noise) return;
+  row(text, std::string("relative_noise_") + image,
+      number(noise->relative, "%.6g") + " (" + pixels_text(*noise) + ")");
+  row(text, std::string("variance_") + image,
+      is_doubted(noise) ? "not reliable: " + doubt_text(*noise) : "reliable");
+}
+
+void put_z_test(std::string& text, const Comparison& c) {
+  const ZTest& z = *c.z;
+  const bool rare = has_rare_samples(c.noise_a) || has_rare_samples(c.noise_b);
+  row(text, "z_test",
+      verdict(z.passed) + (z.non_finite > 0 ? "" : ", " + p_value(z.p)) +
+          (rare ? ", by variances that rare bright samples carry" : ""));
   row(text, "  values",
       verdict(z.pixels_passed) + (": " + number(100 * z.failed_fraction, "%.4f")) + " % beyond |z| " +
-          number(z.pixel_threshold, "%.3f") + ", worst z " + number(z.worst_pixel_z, "%.3f"));
+          number(z.pixel_threshold, "%.3f") + ", worst z " + number(z.worst_pixel_z, "%.3f") + ", " +
+          p_value(z.pixels_p));
   row(text, "  blocks",
       verdict(z.blocks_passed) + (": worst z " + number(z.worst_block_z, "%.3f")) + ", threshold " +
           number(z.block_threshold, "%.3f") + ", " + p_value(z.block_p));
@@ -130,21 +168,41 @@ void put_z_test(std::string& text, const ZTest& z) {
 
 // JSON has no infinity and no NaN: what is not finite is null.
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json finite(const std::optional<double>& value) { return value ? finite(*value) : Json(nullptr); }
 
 Json estimate(double value, double error) {
   return {{"value", finite(value)}, {"standard_error", finite(error)}};
 }
 
+Json relative_noise(const std::optional<ImageNoise>& noise) {
+  return noise ? finite(noise->relative) : Json(nullptr);
+}
+
+Json noise_json(const std::optional<ImageNoise>& noise) {
+  if (!noise) return nullptr;
+  constexpr std::array<const char*, 3> kOver{"all", "mask", "object"};
+  Json json;
+  json["over"] = kOver[static_cast<std::size_t>(noise->over)];
+  json["pixels"] = noise->pixels;
+  return json;
+}
+
+Json variance_json(const std::optional<ImageNoise>& noise) {
+  if (!noise) return nullptr;
+  const bool doubted = is_doubted(noise);
+  return {{"reliable", !doubted}, {"doubt", doubted ? Json(doubt_text(*noise)) : Json(nullptr)}};
+}
+
 Json z_test_json(const ZTest& z) {
   Json json;
   json["passed"] = z.passed;
+  json["p"] = finite(z.p);
   json["non_finite"] = z.non_finite;
   json["values"] = {{"passed", z.pixels_passed},
                     {"count", z.values},
                     {"failed_fraction", finite(z.failed_fraction)},
                     {"worst_z", finite(z.worst_pixel_z)},
-                    {"threshold", finite(z.pixel_threshold)}};
+                    {"threshold", finite(z.pixel_threshold)},
+                    {"p", finite(z.pixels_p)}};
   json["blocks"] = {{"passed", z.blocks_passed},
                     {"worst_z", finite(z.worst_block_z)},
                     {"threshold", finite(z.block_threshold)},
@@ -165,8 +223,8 @@ Comparison compare_images(const Image& a, const Image& b, std::span<const std::u
   Comparison c;
   c.error = image_error(a, b, mask);
   c.mean = mean_difference(a, b, mask);
-  if (a.channels >= 6) c.noise_a = estimate_noise(a, mask).noise;
-  if (b.channels >= 6) c.noise_b = estimate_noise(b, mask).noise;
+  if (a.channels >= 6) c.noise_a = noise_of(a, mask);
+  if (b.channels >= 6) c.noise_b = noise_of(b, mask);
   if (limits.fail.counts()) c.beyond_fail = pixels_beyond(a, b, limits.fail.each.value_or(0), mask);
   if (limits.warn.counts()) c.beyond_warn = pixels_beyond(a, b, limits.warn.each.value_or(0), mask);
   if (limits.z_test) c.z = z_test(a, b, mask);
@@ -181,6 +239,17 @@ Comparison compare_images(const Image& a, const Image& b, std::span<const std::u
                          ", and no threshold allows it");
   check_pixels(c, limits.warn, "warn", c.warnings);
   return c;
+}
+
+void use_stored_noise(const ImageAttributes& attributes, std::optional<ImageNoise>& noise) {
+  const auto relative = find_number(attributes, kNoiseAttribute);
+  const auto pixels = find_integer(attributes, kNoisePixelsAttribute);
+  if (!noise || noise->over != NoisePixels::all || !std::isfinite(noise->relative)) return;
+  if (!relative || !pixels) return;
+  if (*relative < 0 || *pixels < 1 || static_cast<std::size_t>(*pixels) >= noise->pixels) return;
+  noise->relative = *relative;
+  noise->pixels = static_cast<std::size_t>(*pixels);
+  noise->over = NoisePixels::object;
 }
 
 std::string comparison_text(const Comparison& c) {
@@ -199,11 +268,11 @@ std::string comparison_text(const Comparison& c) {
         with_error(c.mean.channel_mean[i], c.mean.channel_standard_error[i]));
   row(text, "max_abs", e.max_channel < 0 ? number(e.max_abs) : largest(e));
   row(text, "non_finite", std::to_string(e.non_finite));
-  if (c.noise_a) row(text, "relative_noise_a", number(*c.noise_a, "%.6g"));
-  if (c.noise_b) row(text, "relative_noise_b", number(*c.noise_b, "%.6g"));
+  put_noise(text, 'a', c.noise_a);
+  put_noise(text, 'b', c.noise_b);
   if (c.beyond_fail) row(text, "beyond_fail", std::to_string(*c.beyond_fail) + " pixels");
   if (c.beyond_warn) row(text, "beyond_warn", std::to_string(*c.beyond_warn) + " pixels");
-  if (c.z) put_z_test(text, *c.z);
+  if (c.z) put_z_test(text, c);
   row(text, "result", verdict(c.passed()));
   return text;
 }
@@ -230,8 +299,12 @@ std::string comparison_json(const Comparison& c) {
   if (e.max_channel >= 0)
     json["max_abs_at"] = {{"x", e.max_x}, {"y", e.max_y}, {"channel", kChannel[e.max_channel]}};
   json["non_finite"] = e.non_finite;
-  json["relative_noise_a"] = finite(c.noise_a);
-  json["relative_noise_b"] = finite(c.noise_b);
+  json["relative_noise_a"] = relative_noise(c.noise_a);
+  json["relative_noise_b"] = relative_noise(c.noise_b);
+  json["noise_a"] = noise_json(c.noise_a);
+  json["noise_b"] = noise_json(c.noise_b);
+  json["variance_a"] = variance_json(c.noise_a);
+  json["variance_b"] = variance_json(c.noise_b);
   json["beyond_fail"] = beyond_json(c.beyond_fail);
   json["beyond_warn"] = beyond_json(c.beyond_warn);
   json["z_test"] = c.z ? z_test_json(*c.z) : Json(nullptr);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "film/noise.h"
+#include "io/image_file.h"
 #include "stats/image_error.h"
 
 namespace meander {
@@ -39,11 +41,22 @@ struct CompareLimits {
   }
 };
 
+/// Which pixels a noise is of.
+enum class NoisePixels : std::uint8_t { all, mask, object };
+
+/// The relative noise of an image that carries variances, see film/noise.h.
+struct ImageNoise {
+  double relative = 0;
+  std::size_t pixels = 0;
+  NoisePixels over = NoisePixels::all;
+  NoiseDoubt doubt = NoiseDoubt::none;  // of the variances of all compared pixels
+};
+
 struct Comparison {
   ImageError error;
   MeanDifference mean;
-  std::optional<double> noise_a;  // where the image carries variances
-  std::optional<double> noise_b;
+  std::optional<ImageNoise> noise_a;  // where the image carries variances
+  std::optional<ImageNoise> noise_b;
   std::optional<std::size_t> beyond_fail;  // pixels, where it is asked
   std::optional<std::size_t> beyond_warn;
   std::optional<ZTest> z;
@@ -57,6 +70,10 @@ struct Comparison {
 /// (input) as image_error and, with limits.z_test, as z_test.
 [[nodiscard]] Comparison compare_images(const Image& a, const Image& b, std::span<const std::uint8_t> mask,
                                         const CompareLimits& limits);
+
+/// The noise over the object's pixels as the render has stored it in its file (run_stats.h), in place of that
+/// of all pixels. Leaves the noise of a mask's pixels alone, and whatever a file says nothing of.
+void use_stored_noise(const ImageAttributes& attributes, std::optional<ImageNoise>& noise);
 
 /// A line a quantity: name, value, and what belongs to it.
 [[nodiscard]] std::string comparison_text(const Comparison& comparison);

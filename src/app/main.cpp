@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
   try {
     const int code = meander::run_command_line(argc, argv);
     std::cout.flush();
-    if (!std::cout || std::fflush(stdout) != 0)
+    if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw meander::Error(meander::Fault::runtime, "cannot write to standard output");
     return code;
   } catch (const meander::Error& error) {

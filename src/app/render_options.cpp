@@ -111,7 +111,7 @@ void add_budget_options(CLI::App& verb, RenderOptions& o) {
 
 void add_render_options(CLI::App& verb, RenderOptions& o) {
   verb.add_option("SCENE", o.scene, "scene file (.toml), or a bare mesh (.ply .obj .glb .stl)")->required();
-  verb.add_option("-o,--output", o.output, "image file to write")->required();
+  verb.add_option("-o,--output", o.output, "image file to write")->required()->check(file_name());
   add_budget_options(verb, o);
   verb.get_option("--spp")->description("samples a pixel (64 when neither --time nor --error is given)");
   verb.add_option("--first-sample", o.first_sample, "number of the first sample (0)")
@@ -119,7 +119,7 @@ void add_render_options(CLI::App& verb, RenderOptions& o) {
   verb.add_option("--crop", o.crop, "X0,Y0,X1,Y1: render this rectangle of the film only")
       ->delimiter(',')
       ->expected(4);
-  verb.add_option("--stats", o.stats, "file for statistics (.json)");
+  verb.add_option("--stats", o.stats, "file for statistics (.json)")->check(file_name());
   verb.add_flag("--quiet", o.quiet, "say nothing but errors");
 }
 

@@ -215,7 +215,8 @@ std::string report_json(const Report& report) {
   object["first_sample"] = report.job.first_sample;
   object["width"] = area.x1 - area.x0;
   object["height"] = area.y1 - area.y0;
-  object["object_pixels"] = std::ranges::count(report.mask, std::uint8_t{1});
+  const auto counted = std::ranges::count(report.mask, std::uint8_t{1});
+  object["object_pixels"] = counted > 0 ? Json(counted) : Json("all");
   object["interrupted"] = report.interrupted;
   object["setup_seconds"] = report.setup_seconds;
   object["reference"] = reference_json(report.reference);

@@ -22,9 +22,9 @@ std::string size_text(int width, int height) {
 
 // Whether the file says that it holds samples of the job's own streams.
 bool shares_samples(const ImageAttributes& attributes, const Job& job, const Budget& budget) {
-  const auto seed = find_integer(attributes, "meander/seed");
+  const auto seed = find_unsigned(attributes, "meander/seed");
   const auto spp = find_integer(attributes, "meander/spp");
-  if (!seed || !spp || static_cast<std::uint64_t>(*seed) != job.seed) return false;
+  if (!seed || !spp || *seed != job.seed) return false;
   const std::int64_t first = find_integer(attributes, "meander/first_sample").value_or(0);
   const std::int64_t own = job.first_sample;
   const bool ends_before = budget.spp && own + static_cast<std::int64_t>(*budget.spp) <= first;

@@ -2,6 +2,8 @@
 
 #include <sys/resource.h>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -18,6 +20,12 @@ std::uint64_t peak_memory_bytes() {
 // JSON has no infinity: what is not finite is null.
 nlohmann::ordered_json finite(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+// The fewest digits that read back as the same number.
+std::string shortest(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 }  // namespace
@@ -64,6 +72,11 @@ ImageAttributes image_attributes(const Job& job, const Rendering& rendering) {
   attributes.integers = {{"meander/spp", static_cast<std::int64_t>(rendering.spp)},
                          {"meander/first_sample", job.first_sample}};
   if (fits) attributes.integers.emplace_back("meander/seed", static_cast<std::int64_t>(job.seed));
+  const NoiseEstimate& noise = rendering.noise;
+  if (noise.pixels > 0 && std::isfinite(noise.noise)) {
+    attributes.text.emplace_back(kNoiseAttribute, shortest(noise.noise));
+    attributes.integers.emplace_back(kNoisePixelsAttribute, static_cast<std::int64_t>(noise.pixels));
+  }
   return attributes;
 }
 

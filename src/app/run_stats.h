@@ -14,7 +14,12 @@ namespace meander {
 /// key.
 [[nodiscard]] std::string stats_json(const Job& job, const Rendering& rendering, const char* ended_by);
 
-/// scene, seed, spp, first sample and version.
+/// The attributes that hold the relative noise of --stats, and the number of pixels that it is of.
+inline constexpr const char* kNoiseAttribute = "meander/relative_noise";
+inline constexpr const char* kNoisePixelsAttribute = "meander/noise_pixels";
+
+/// scene, seed, spp, first sample and version; the relative noise, and of how many pixels it is, where there
+/// is one.
 [[nodiscard]] ImageAttributes image_attributes(const Job& job, const Rendering& rendering);
 
 }  // namespace meander

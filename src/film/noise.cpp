@@ -127,7 +127,8 @@ NoiseEstimate estimate(const Source& source, std::span<const std::uint8_t> mask)
   for (int y = 0; y < source.height(); ++y) gather_row(counted, y, columns, all);
   if (all.pixels == 0) return {};
   NoiseEstimate result{std::sqrt(all.sum / (3 * all.pixels)), standard_error(all),
-                       std::sqrt(all.own / (3 * all.pixels)), NoiseDoubt::none};
+                       std::sqrt(all.own / (3 * all.pixels)), NoiseDoubt::none,
+                       static_cast<std::size_t>(all.pixels)};
   if (result.noise > kMostNoiseRatio * result.own)
     result.doubt = NoiseDoubt::rare_bright_samples;
   else if (result.standard_error > kMostNoiseError)
@@ -142,7 +143,7 @@ NoiseEstimate estimate_noise(const Film& film, std::span<const std::uint8_t> mas
   const auto counted = effective(mask);
   for (std::size_t i = 0; i < film.pixels.size(); ++i)
     if (film.pixels[i].count < 2 && (counted.empty() || counted[i] != 0))
-      return {kInfinity, kInfinity, kInfinity, NoiseDoubt::too_few_samples};
+      return {kInfinity, kInfinity, kInfinity, NoiseDoubt::too_few_samples, 0};
   return estimate(FilmSource{film}, counted);
 }
 

@@ -1,6 +1,7 @@
 // The relative noise of a film, and how far that estimate can be trusted.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -16,6 +17,7 @@ struct NoiseEstimate {
   double standard_error = 0;  // of `noise`, relative to it
   double own = 0;             // the noise with every pixel divided by its own mean alone
   NoiseDoubt doubt = NoiseDoubt::none;
+  std::size_t pixels = 0;  // that it is of; 0 where it is infinite
   [[nodiscard]] bool reliable() const noexcept { return doubt == NoiseDoubt::none; }
 };
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -172,6 +173,18 @@ ImageAttributes attributes_of(const OIIO::ImageSpec& spec) {
   return attributes;
 }
 
+// The number that the whole of a text attribute spells.
+template <class Number>
+std::optional<Number> find_text_as(const ImageAttributes& attributes, const std::string& name) {
+  for (const auto& [key, value] : attributes.text) {
+    if (key != name) continue;
+    Number parsed = 0;
+    const auto [end, failed] = std::from_chars(value.data(), value.data() + value.size(), parsed);
+    if (failed == std::errc() && end == value.data() + value.size()) return parsed;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void write_exr(const std::string& path, const Image& image, std::span<const std::string> channel_names,
@@ -240,13 +253,19 @@ std::optional<std::int64_t> find_integer(const ImageAttributes& attributes, cons
   for (const auto& [key, value] : attributes.integers) {
     if (key == name) return value;
   }
-  for (const auto& [key, value] : attributes.text) {
-    if (key != name) continue;
-    std::int64_t parsed = 0;
-    const auto [end, failed] = std::from_chars(value.data(), value.data() + value.size(), parsed);
-    if (failed == std::errc() && end == value.data() + value.size()) return parsed;
+  return find_text_as<std::int64_t>(attributes, name);
+}
+
+std::optional<std::uint64_t> find_unsigned(const ImageAttributes& attributes, const std::string& name) {
+  for (const auto& [key, value] : attributes.integers) {
+    if (key == name && value >= 0) return static_cast<std::uint64_t>(value);
   }
-  return std::nullopt;
+  return find_text_as<std::uint64_t>(attributes, name);
+}
+
+std::optional<double> find_number(const ImageAttributes& attributes, const std::string& name) {
+  const auto found = find_text_as<double>(attributes, name);
+  return found && std::isfinite(*found) ? found : std::nullopt;
 }
 
 }  // namespace meander

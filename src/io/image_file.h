@@ -59,4 +59,11 @@ void write_png(const std::string& path, const Image8& frame, const ImageAttribut
 [[nodiscard]] std::optional<std::int64_t> find_integer(const ImageAttributes& attributes,
                                                        const std::string& name);
 
+/// The same of one from 0 to 2^64 - 1, such as a seed.
+[[nodiscard]] std::optional<std::uint64_t> find_unsigned(const ImageAttributes& attributes,
+                                                         const std::string& name);
+
+/// The finite number that is stored as text under that name; nothing when there is none.
+[[nodiscard]] std::optional<double> find_number(const ImageAttributes& attributes, const std::string& name);
+
 }  // namespace meander

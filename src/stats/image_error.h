@@ -68,7 +68,8 @@ struct ZTestOptions {
 };
 
 /// Verdict and evidence of a z-test. A threshold is the |z| above which a value, a block or an image mean is
-/// no chance; a p-value is corrected for the number of blocks or of channels.
+/// no chance; a p-value is corrected for the number of values, blocks or channels: the least alpha at which
+/// that part, for `p` the whole test, fails. With a value that is not finite `p` is 0.
 struct ZTest {
   bool passed = false;
   bool pixels_passed = false;
@@ -83,8 +84,10 @@ struct ZTest {
   double pixel_threshold = 0;
   double block_threshold = 0;
   double image_threshold = 0;
+  double pixels_p = 1;
   double block_p = 1;
   double image_p = 1;
+  double p = 1;
 };
 
 /// Do two renders, each with the channels R G B and the variance of the mean of each, have the same
@@ -97,8 +100,12 @@ struct ZTest {
 /// Rounding is granted a standard error of 1e-6 (|a| + |b|) a value, fully correlated within a sum: values
 /// without variance, as in a furnace, must agree within about 1e-5 relative. A non-finite value or variance
 /// fails the test. The thresholds are the normal's while the variances are estimates: give each image 8
-/// samples a pixel or more. Where rare bright samples carry the mean, a sum that missed them has a small
-/// variance too; there give both images equally many samples, or the noisier one 64 and more.
+/// samples a pixel or more.
+///
+/// The variance of a block is in either image at least what the other's says, scaled by the channel's median
+/// ratio: where rare bright samples carry the mean, a block that missed them has a small variance too, and
+/// would fail on its own. As in the pooled and the score test of two samples (Rao 1948), the hypothesis lends
+/// it the variance of the image that knows it better. A firefly in one image widens its own block in both.
 [[nodiscard]] ZTest z_test(const Image& a, const Image& b, std::span<const std::uint8_t> mask = {},
                            const ZTestOptions& options = {});
 

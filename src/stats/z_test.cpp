@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <vector>
 
 #include "stats/counted_pixels.h"
@@ -48,9 +50,8 @@ Difference difference_at(const Image& a, const Image& b, std::size_t pixel, int 
   return {x - y, variance_a, variance_b, kRounding * (std::abs(x) + std::abs(y)), 1};
 }
 
-// z of a single value. The variance of a few samples of a skewed quantity is often far too small, and
-// smallest where the mean is too low; the mean variance of the block stands in where it is larger. Values
-// without any variance are deterministic and stay so.
+// z of a single value. The mean variance of the block, raised as blocks are, stands in where it is larger.
+// Values without any variance are deterministic and stay so.
 double value_z(Difference value, const Difference& block) {
   if (value.variance_a + value.variance_b > 0) {
     const double count = static_cast<double>(block.count);
@@ -101,19 +102,70 @@ std::vector<Channels> sum_blocks(const Comparison& images, ZTest& test) {
   return blocks;
 }
 
+// The variance of A over that of B in a block, and its weight.
+struct BlockRatio {
+  double ratio = 0;
+  double weight = 0;
+};
+
+// Variance of A over that of B where both have some: the median over the blocks, each weighing as the root of
+// both. A sum over the sums would go by the brightest firefly, a plain median by blocks of rare events, which
+// most images of few samples miss. NaN where no block has both.
+double variance_ratio(const std::vector<Channels>& blocks, int channel) {
+  std::vector<BlockRatio> ratios;
+  double total = 0;
+  for (const Channels& block : blocks) {
+    const Difference& d = block[channel];
+    if (d.variance_a <= 0 || d.variance_b <= 0) continue;
+    ratios.push_back({d.variance_a / d.variance_b, std::sqrt(d.variance_a) * std::sqrt(d.variance_b)});
+    total += ratios.back().weight;
+  }
+  std::ranges::sort(ratios, {}, &BlockRatio::ratio);
+  double below = 0;
+  for (const BlockRatio& r : ratios) {
+    below += r.weight;
+    if (below >= total / 2) return r.ratio;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// Few samples of a skewed quantity that miss its rare bright ones give a mean and a variance that are both
+// too low. But under the hypothesis each image knows the other's variance, up to the ratio of their samples:
+// a block has at least what the other image says.
+std::vector<Channels> raise_variances(std::vector<Channels> blocks) {
+  for (int channel = 0; channel < 3; ++channel) {
+    const double ratio = variance_ratio(blocks, channel);
+    if (!(ratio > 0 && std::isfinite(ratio))) continue;
+    for (Channels& block : blocks) {
+      Difference& d = block[channel];
+      const double a = std::max(d.variance_a, ratio * d.variance_b);
+      d.variance_b = std::max(d.variance_b, d.variance_a / ratio);
+      d.variance_a = a;
+    }
+  }
+  return blocks;
+}
+
 void test_values(const Comparison& images, const std::vector<Channels>& blocks, const ZTestOptions& options,
                  ZTest& test) {
   test.pixel_threshold = two_sided_threshold(sidak_level(options.alpha, test.values));
-  std::size_t failed = 0;
+  const double values = static_cast<double>(test.values);
+  std::vector<double> sizes;
+  sizes.reserve(test.values);
   images.for_each_value([&](std::size_t block, int channel, const Difference& value) {
     if (value.count == 0) return;
     const double z = value_z(value, blocks[block][channel]);
-    failed += std::abs(z) > test.pixel_threshold;
+    sizes.push_back(std::abs(z));
     keep_worst(test.worst_pixel_z, z);
   });
-  test.failed_fraction =
-      static_cast<double>(failed) / static_cast<double>(std::max<std::size_t>(test.values, 1));
-  test.pixels_passed = 1 - test.failed_fraction >= options.pixels_passing;
+  const auto failed = std::ranges::count_if(sizes, [&](double z) { return z > test.pixel_threshold; });
+  test.failed_fraction = static_cast<double>(failed) / std::max(values, 1.0);
+  // The first value in order of size that may not fail decides.
+  const auto allowed = static_cast<std::size_t>((1 - options.pixels_passing) * values + 1e-9);
+  test.pixels_passed = static_cast<std::size_t>(failed) <= allowed;
+  if (allowed >= sizes.size()) return;
+  std::ranges::nth_element(sizes, sizes.begin() + static_cast<std::ptrdiff_t>(allowed), std::greater{});
+  test.pixels_p = sidak_p(two_sided_p(sizes[allowed]), test.values);
 }
 
 // The sums to be judged as blocks. A block the mask leaves mostly empty has too few variances behind its
@@ -168,12 +220,15 @@ ZTest z_test(const Image& a, const Image& b, std::span<const std::uint8_t> mask,
   const Comparison images{a, b, CountedPixels(a, b, mask, 6), options.block};
   ZTest test;
   const std::vector<Channels> blocks = sum_blocks(images, test);
-  test_values(images, blocks, options, test);
+  const std::vector<Channels> raised = raise_variances(blocks);
+  test_values(images, raised, options, test);
   const double level = sidak_level(options.alpha, 2);
   const std::size_t half_block = (static_cast<std::size_t>(options.block) * options.block + 1) / 2;
-  test_blocks(blocks, half_block, level, test);
+  test_blocks(raised, half_block, level, test);
   test_image(blocks, level, test);
   test.passed = test.non_finite == 0 && test.pixels_passed && test.blocks_passed && test.image_passed;
+  test.p = std::min(test.pixels_p, sidak_p(std::min(test.block_p, test.image_p), 2));
+  if (test.non_finite > 0) test.p = 0;
   return test;
 }
 

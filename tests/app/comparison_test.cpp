@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace meander {
@@ -130,7 +131,7 @@ TEST_CASE("A report without limits tells nothing of them") {
   const std::string full = comparison_text(
       compare_images(with_variance(kA, 1), with_variance(kB, 1), {}, {.fail = {.each = 1}, .z_test = true}));
   CHECK(full.find("beyond_fail       1 pixels\n") != std::string::npos);
-  CHECK(full.find("z_test            passed\n") != std::string::npos);
+  CHECK(full.find("z_test            passed, p ") != std::string::npos);
   CHECK(full.find("result            FAILED\n") != std::string::npos);
 }
 
@@ -148,10 +149,79 @@ TEST_CASE("A report says where the standard error comes from") {
   CHECK(says(kA, kB, "spread over pixels"));
 }
 
+TEST_CASE("A noise says of which pixels it is, and whether the variances are reliable") {
+  const Image a = with_variance(kA, 0.01f);
+  Comparison c = compare_images(a, a, {}, {});
+  REQUIRE(c.noise_a.has_value());
+  const double own = c.noise_a->relative;
+  const auto shows = [&](const std::string& text) {
+    return comparison_text(c).find(text) != std::string::npos ||
+           comparison_json(c).find(text) != std::string::npos;
+  };
+  CHECK(shows(" (all 4 pixels)\n"));
+  CHECK(shows("variance_a        reliable\n"));
+  // What the render of the file has stored of its object's pixels stands in; nonsense does not.
+  const auto stored = [](const char* noise, std::int64_t pixels) {
+    return ImageAttributes{{{"meander/relative_noise", noise}}, {{"meander/noise_pixels", pixels}}};
+  };
+  for (const auto& [noise, pixels] : {std::pair("0.25", 0), {"0.25", 5}, {"nan", 3}, {"-1", 3}, {"", 3}}) {
+    use_stored_noise(stored(noise, pixels), c.noise_a);
+    CHECK(c.noise_a->relative == own);
+    CHECK(c.noise_a->over == NoisePixels::all);
+  }
+  use_stored_noise(stored("0.25", 3), c.noise_a);
+  CHECK(shows("relative_noise_a  0.25 (the object's 3 pixels)\n"));
+  CHECK(shows("\"relative_noise_a\": 0.25"));
+  CHECK(shows("\"over\": \"object\""));
+  // A mask asks for its own pixels.
+  c = compare_images(a, a, std::vector<std::uint8_t>{1, 1, 0, 0}, {});
+  use_stored_noise(stored("0.25", 1), c.noise_a);
+  CHECK(c.noise_a->over == NoisePixels::mask);
+  CHECK(c.noise_a->relative != 0.25);
+  CHECK(shows(" (the mask's 2 pixels)\n"));
+  // An image without variances has none.
+  c = compare_images(kA, kA, {}, {});
+  use_stored_noise(stored("0.25", 3), c.noise_a);
+  CHECK_FALSE(c.noise_a.has_value());
+}
+
+TEST_CASE("Variances that rare bright samples carry are said to, beside the verdict too") {
+  // One pixel of 16 x 16 carries nearly all the variance, and outshines its neighbours.
+  Image a(16, 16, 6);
+  for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] = i % 6 < 3 ? 1 : 1e-4f;
+  for (int k = 0; k < 6; ++k) a.at(8, 8)[k] = k < 3 ? 100 : 1e4f;
+  const Comparison c = compare_images(a, a, {}, {.z_test = true});
+  CHECK(c.noise_a->doubt == NoiseDoubt::rare_bright_samples);
+  const std::string text = comparison_text(c);
+  CHECK(text.find("variance_b        not reliable: rare bright samples carry it") != std::string::npos);
+  CHECK(text.find("z_test            passed, p 1, by variances that rare bright samples carry\n") !=
+        std::string::npos);
+  CHECK(comparison_json(c).find("\"reliable\": false") != std::string::npos);
+}
+
+TEST_CASE("What is undefined is said to be, and null in JSON") {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float sign : {1.0f, -1.0f}) {
+    Image broken = with_variance(kA, 0.01f);
+    for (float& value : broken.values) value = std::copysign(nan, sign);
+    const Comparison c = compare_images(broken, broken, {}, {.max_rmse = 1, .z_test = true});
+    const std::string text = comparison_text(c);
+    CHECK(text.find("nan") == std::string::npos);
+    CHECK(text.find("rmse              undefined\n") != std::string::npos);
+    CHECK(text.find("variance_a        not reliable: not all values") != std::string::npos);
+    CHECK(text.find("z_test            FAILED\n") != std::string::npos);
+    const std::string json = comparison_json(c);
+    CHECK(json.find("nan") == std::string::npos);
+    for (const char* name : {"rmse", "psnr", "max_abs", "relative_noise_a"})
+      CHECK(json.find("\"" + std::string(name) + "\": null") != std::string::npos);
+    for (const std::string& line : c.failures) CHECK(line.find("nan") == std::string::npos);
+  }
+}
+
 TEST_CASE("JSON has null for what is infinite or not known") {
   const std::string json = comparison_json(compare_images(kA, kA, {}, {}));
-  for (const char* name :
-       {"psnr", "max_abs_at", "relative_noise_a", "relative_noise_b", "beyond_fail", "z_test"})
+  for (const char* name : {"psnr", "max_abs_at", "relative_noise_a", "relative_noise_b", "noise_a",
+                           "variance_b", "beyond_fail", "z_test"})
     CHECK(json.find("\"" + std::string(name) + "\": null") != std::string::npos);
   CHECK(json.find("\"passed\": true") != std::string::npos);
 }

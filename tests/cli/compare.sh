@@ -123,12 +123,15 @@ import json
 j = json.load(open('out.txt'))
 near = lambda x, y: abs(x - y) < 1e-6
 assert list(j) == '''passed failures warnings pixels rmse relative_rmse relmse mae psnr mean_signed mean_signed_rgb max_abs
-max_abs_at non_finite relative_noise_a relative_noise_b beyond_fail beyond_warn z_test'''.split(), list(j)
+max_abs_at non_finite relative_noise_a relative_noise_b noise_a noise_b variance_a variance_b beyond_fail beyond_warn
+z_test'''.split(), list(j)
 assert j['passed'] is False and len(j['failures']) == len(j['warnings']) == 1 and '--hard-fail' in j['failures'][0]
 assert near(j['rmse'], 1.5 ** 0.5) and j['mae'] == 1 and near(j['psnr'], -1.760912591) and j['pixels'] == 4
 assert j['mean_signed']['value'] == 0.5 and j['mean_signed']['error_from'] == 'variances of A and B'
 assert near(j['mean_signed_rgb'][0]['standard_error'], 0.25) and j['mean_signed_rgb'][2]['value'] == 0.5
 assert j['max_abs_at'] == {'x': 1, 'y': 1, 'channel': 'R'} and j['z_test'] is None
+assert j['noise_a'] == j['noise_b'] == {'over': 'all', 'pixels': 4}
+assert j['variance_a'] == {'reliable': False, 'doubt': 'too few pixels to tell it within 10 %'}, j['variance_a']
 assert near(j['relative_noise_a'], 0.05773457) and j['beyond_fail'] == j['beyond_warn'] == 1
 PY
 
@@ -229,6 +232,16 @@ expect 2 "meander: --fail-percent: is '101', but must be a number from 0 to 100 
 expect 2 "meander: --scale: is '0', but must be a number greater than 0 $help" a.pfm b.pfm --scale 0 -o no.png
 expect 2 "meander: --scale requires --output $help" a.pfm b.pfm --scale 2
 expect 2 "meander: --json excludes --quiet $help" a.pfm b.pfm --json --quiet
+expect 2 "meander: --output: is '', but must be the name of a file $help" a.pfm b.pfm -o ''
+expect 2 "meander: --mask: is '', but must be the name of a file $help" a.pfm b.pfm --mask ''
+# A report that cannot be printed is no success, of whatever verb.
+for arguments in 'compare a.pfm a.pfm' 'compare a.pfm a.pfm --json' 'compare --help' 'measure slab --tau 1 --walks 100' \
+  "convert $source/scenes/wax_knot.toml --to cycles"; do
+  status=0
+  "$meander" $arguments >/dev/full 2>err.txt || status=$?
+  [ $status -eq 3 ] && [ "$(cat err.txt)" = 'meander: cannot write to standard output' ] ||
+    fail "$arguments to a full device: exit code $status, $(cat err.txt)"
+done
 cp a.pfm a.jpg
 status=0
 "$meander" compare a.jpg b.pfm >out.txt 2>err.txt || status=$?
@@ -272,3 +285,27 @@ noise = json.load(open('crop.json'))['relative_noise']
 found = [float(line.split()[1]) for line in open('out.txt') if line.startswith('relative_noise')]
 assert len(found) == 2 and all(abs(f / noise - 1) < 2e-5 for f in found), (found, noise)
 PY
+
+# Of the whole film, the render's noise is the object's; its file carries that, and a mask asks for its own pixels.
+"$meander" render "$scene" -o film.exr "${small[@]}" --stats film.json
+write_mask='from images import *; write_png("half.png", (160, 90, [[(255 * (x < 80),) * 3 for x in range(160)]] * 90))'
+python3 -c "$write_mask"
+expect 0 '' film.exr base.exr --json
+cp out.txt whole.json
+expect 0 '' film.exr base.exr --json --mask half.png
+python3 - <<'PY' || fail "the noise of a film: $(cat whole.json)"
+import json
+stats, whole, half = (json.load(open(name)) for name in ('film.json', 'whole.json', 'out.txt'))
+assert whole['relative_noise_a'] == whole['relative_noise_b'] == stats['relative_noise'], stats['relative_noise']
+assert whole['noise_a']['over'] == 'object' and 1000 < whole['noise_a']['pixels'] < 14400, whole['noise_a']
+assert half['noise_a'] == {'over': 'mask', 'pixels': 7200} and half['relative_noise_a'] != stats['relative_noise']
+assert whole['variance_a'] == {'reliable': True, 'doubt': None}
+PY
+
+# Caustics: the variances say little, which the verdict says.
+glass=$source/scenes/glass_ball.toml
+"$meander" render "$glass" -o glass.exr "${small[@]}"
+"$meander" render "$glass" -o glass64.exr --spp 64 --width 160 --height 90 --quiet --seed 1
+expect 0 '' glass.exr glass64.exr --z-test
+grep -q '^variance_a  *not reliable: rare bright samples carry it' out.txt || fail "no doubt of caustics: $(cat out.txt)"
+grep -q '^z_test  *passed, p .*, by variances that rare bright samples carry$' out.txt || fail "the verdict: $(cat out.txt)"

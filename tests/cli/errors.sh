@@ -93,6 +93,11 @@ refuse 'need --json' measure slab --albedo 0.1:0.9:3 --angular-bins 4
 refuse '--inversion is that of --color' measure halfspace --inversion chiang
 refuse 'a slab in mm needs --thickness' measure slab --sigma-s 10 --sigma-a 0.1
 refuse 'none.exr' compare in/none.exr in/none.exr
+refuse "is '', but must be the name of a file" render in/good.toml -o ''
+# A seed that no signed integer holds travels as text.
+"$meander" render in/good.toml -o in/large.exr --seed 18446744073709551615 --spp 2 --width 8 --height 8 --quiet
+refuse 'the very samples of seed 18446744073709551615' report in/good.toml -o out/report --seed 18446744073709551615 \
+  --spp 2 --width 8 --height 8 --reference in/large.exr
 
 # An open mesh is a warning with the number of open edges, not an error.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' > in/open.obj

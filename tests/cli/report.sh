@@ -139,6 +139,10 @@ same_columns two three || fail "the same seed gives other errors"
 ! same_columns two four || fail "another seed gives the same errors"
 [ -s two/implicit.exr ] && [ ! -e two/analog.exr ] || fail "--estimators is not heeded"
 
+# Without an object in view every pixel counts.
+"$meander" report ball.toml -o away "${short[@]}" --set 'camera.look_at=[9, 0, 5]' > /dev/null
+grep -q '"object_pixels": "all"' away/report.json || fail "no object: $(grep object_pixels away/report.json)"
+
 # Enough samples have a tail.
 "$meander" report ball.toml -o tail --spp 512 --reference-spp 64 --estimators implicit --quiet > tail.txt
 python3 - <<'PY' || fail "the tail"

@@ -121,6 +121,15 @@ struct FullDisk {
 
 }  // namespace
 
+TEST_CASE("numbers that travel as text: seeds beyond 2^63, and fractions") {
+  const ImageAttributes attributes{
+      {{"seed", "18446744073709551615"}, {"half", "0.5"}, {"nan", "nan"}, {"much", "0.5 m"}}, {}};
+  CHECK(find_unsigned(attributes, "seed") == std::numeric_limits<std::uint64_t>::max());
+  CHECK_FALSE(find_integer(attributes, "seed").has_value());
+  CHECK(find_number(attributes, "half") == 0.5);
+  for (const char* name : {"nan", "much", "none"}) CHECK_FALSE(find_number(attributes, name).has_value());
+}
+
 TEST_CASE("an EXR comes back bit for bit, with its channel names, attributes and placement") {
   const Folder folder;
   for (const auto& [width, height] : {std::pair{1, 1}, std::pair{3, 2}, std::pair{131, 77}}) {
@@ -146,6 +155,9 @@ TEST_CASE("an EXR comes back bit for bit, with its channel names, attributes and
     CHECK(find_integer(loaded.attributes, "meander/first_sample") == -7);
     CHECK_FALSE(find_integer(loaded.attributes, "meander/scene").has_value());
     CHECK_FALSE(find_integer(loaded.attributes, "meander/none").has_value());
+    CHECK(find_unsigned(loaded.attributes, "meander/seed") == 1234567890123);
+    CHECK(find_unsigned(loaded.attributes, "meander/spp") == 64);
+    CHECK_FALSE(find_unsigned(loaded.attributes, "meander/first_sample").has_value());
   }
   CHECK(folder.entries() == 1);
 }

@@ -17,10 +17,27 @@ double normal_sample(Random& random) {  // Box & Muller 1958
   return radius * std::cos(2 * std::numbers::pi * random.next());
 }
 
-enum class Noise { normal, exponential };
+// `rare`: a hundredth of the samples is bright and carries nearly all the variance. Skewness 20, as in a
+// quarter of the 8 x 8 blocks of jade under a small lamp, whose samples deviate as much, 0.9 of their mean.
+enum class Noise { normal, exponential, rare };
+
+double exponential_sample(Random& random) { return -std::log(1 - double{random.next()}); }
 
 double noise_sample(Noise noise, Random& random) {
-  return noise == Noise::normal ? normal_sample(random) : -std::log(1 - double{random.next()}) - 1;
+  constexpr double kChance = 0.01;
+  switch (noise) {
+    case Noise::normal:
+      return normal_sample(random);
+    case Noise::exponential:
+      return exponential_sample(random) - 1;
+    case Noise::rare:
+      break;
+  }
+  // Spread evenly with variance 0.01; the bright ones have variance 0.99.
+  const double even = 0.1 * std::sqrt(12.0) * (double{random.next()} - 0.5);
+  const double size = std::sqrt(0.99 / (kChance * (2 - kChance)));
+  const double bright = random.next() < kChance ? exponential_sample(random) : 0;
+  return even + size * (bright - kChance);
 }
 
 struct Render {
@@ -100,6 +117,30 @@ TEST_CASE("Skewed noise of few samples against a much better reference raises fe
   CHECK(alarms <= 5);
 }
 
+TEST_CASE("Blocks that missed the rare bright samples raise no more alarms than the level says") {
+  // With a block's own variance alone all 200 fail. A binomial(200, 0.01) is at most 6 in 99.6 of
+  // 100 cases.
+  const Render few{64, 8, 1, 0.9, Noise::rare};
+  const Render many{64, 512, 1, 0.9, Noise::rare};
+  const Image reference = render(many, 1);
+  int alarms = 0;
+  int brighter_found = 0;
+  for (std::uint64_t seed = 2; seed < 202; ++seed) {
+    const Image a = render(few, seed);
+    const ZTest test = z_test(a, reference);
+    alarms += !test.passed;
+    const ZTest swapped = z_test(reference, a);
+    CHECK(swapped.worst_block_z == doctest::Approx(-test.worst_block_z).epsilon(1e-9));
+    CHECK(swapped.passed == test.passed);
+    Render brighter = few;
+    brighter.scale = 1.03;
+    brighter_found += seed < 22 && !z_test(render(brighter, seed), reference).image_passed;
+  }
+  MESSAGE("false alarms of 200: ", alarms, "; 3 % brighter found in ", brighter_found, " of 20");
+  CHECK(alarms <= 6);
+  CHECK(brighter_found == 20);
+}
+
 TEST_CASE("A 3 % brighter image fails at 8 samples although no single pixel shows it") {
   const Render plan{64, 8, 1, 0.5};
   Render brighter = plan;
@@ -123,11 +164,40 @@ TEST_CASE("A region that is off fails by its blocks while the image mean holds")
       shift_pixel(a, x + 32, y, -shift);
     }
   }
-  const ZTest test = z_test(a, b);
-  CHECK(test.pixels_passed);
-  CHECK(test.image_passed);
-  CHECK_FALSE(test.blocks_passed);
-  CHECK_FALSE(test.passed);
+  const auto fails_by_blocks = [&] {
+    const ZTest test = z_test(a, b);
+    CHECK(test.pixels_passed);
+    CHECK(test.image_passed);
+    CHECK_FALSE(test.blocks_passed);
+    CHECK_FALSE(test.passed);
+  };
+  SUBCASE("alone") { fails_by_blocks(); }
+  SUBCASE("beside a firefly in another block") {
+    for (int channel = 0; channel < 3; ++channel) {
+      a.at(60, 60)[channel] += 100;
+      a.at(60, 60)[channel + 3] = 1e4f;
+    }
+    fails_by_blocks();
+  }
+}
+
+TEST_CASE("The p-value is the least level at which the test fails") {
+  const auto turns_at_p = [](const Image& a, const Image& b) {
+    const double p = z_test(a, b).p;
+    REQUIRE(p > 0);
+    REQUIRE(p < 0.99);
+    CHECK(z_test(a, b, {}, {.alpha = 0.999 * p}).passed);
+    CHECK_FALSE(z_test(a, b, {}, {.alpha = 1.001 * p}).passed);
+    return p;
+  };
+  // By blocks or the image, and by values: of 3072 three pixels of 5 sigma are more than the 7 allowed.
+  for (std::uint64_t pair = 0; pair < 10; ++pair) turns_at_p(render({}, 2 * pair), render({}, 2 * pair + 1));
+  const Image b = constant_image(32, 1, 0.005f);
+  Image a = b;
+  for (int i = 0; i < 3; ++i) shift_pixel(a, 8 * i, 0, 0.5f);
+  const double p = turns_at_p(a, b);
+  CHECK(p == doctest::Approx(z_test(a, b).pixels_p));
+  CHECK(p < z_test(a, b).block_p);
 }
 
 TEST_CASE("Images that are equal pass") {
@@ -139,6 +209,8 @@ TEST_CASE("Images that are equal pass") {
   CHECK(test.worst_block_z == 0);
   CHECK(test.block_p == 1);
   CHECK(test.image_p == 1);
+  CHECK(test.pixels_p == 1);
+  CHECK(test.p == 1);
 }
 
 TEST_CASE(
@@ -218,6 +290,7 @@ TEST_CASE("A value or variance that is not finite fails the z-test") {
     Image bad = good;
     bad.at(3, 3)[channel] = std::numeric_limits<float>::quiet_NaN();
     CHECK(z_test(bad, good).non_finite == 1);
+    CHECK(z_test(bad, good).p == 0);
     CHECK_FALSE(z_test(bad, good).passed);
     CHECK_FALSE(z_test(good, bad).passed);
   }
