@@ -69,13 +69,16 @@ std::string_view estimator_name(Estimator estimator) noexcept {
   return estimator == Estimator::analog ? "analog" : "implicit";
 }
 
+std::string_view method_name(const ReportMethod& method) noexcept {
+  if (method.estimator == Estimator::analog) return "analog";
+  return method.walk == WalkCode::batch ? "implicit" : "implicit-scalar";
+}
+
 std::string run_name(const Report& report, const ReportRun& run) {
   const bool several = std::ranges::any_of(
       report.runs, [&](const ReportRun& other) { return other.threads != report.runs.front().threads; });
-  const std::string name(estimator_name(run.estimator));
+  const std::string name(method_name(run.method));
   return several ? name + "-" + std::to_string(run.threads) + "t" : name;
 }
-
-double bias_p(const ZTest& test) noexcept { return sidak_p(std::min(test.block_p, test.image_p), 2); }
 
 }  // namespace meander

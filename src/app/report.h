@@ -34,8 +34,19 @@ struct Fireflies {
 };
 
 /// One estimator on one number of threads.
-struct ReportRun {
+/// What a run may be of: analog walks are always scalar.
+struct ReportMethod {
   Estimator estimator = Estimator::implicit;
+  WalkCode walk = WalkCode::batch;
+
+  [[nodiscard]] bool operator==(const ReportMethod&) const = default;
+};
+inline constexpr ReportMethod kReportMethods[] = {{Estimator::implicit, WalkCode::batch},
+                                                  {Estimator::implicit, WalkCode::scalar},
+                                                  {Estimator::analog, WalkCode::scalar}};
+
+struct ReportRun {
+  ReportMethod method;
   std::string walk;  // the model of the scene's walks, in words
   int threads = 1;
   std::vector<ReportRow> rows;
@@ -101,11 +112,11 @@ struct TimeToNoise {
 
 [[nodiscard]] std::string_view estimator_name(Estimator estimator) noexcept;
 
+/// "implicit", "implicit-scalar" or "analog".
+[[nodiscard]] std::string_view method_name(const ReportMethod& method) noexcept;
+
 /// The name of a run, and of its image's file: "analog", or "analog-2t" where a report has several thread
 /// counts.
 [[nodiscard]] std::string run_name(const Report& report, const ReportRun& run);
-
-/// Both p-values of the bias test as one: that of the family.
-[[nodiscard]] double bias_p(const ZTest& test) noexcept;
 
 }  // namespace meander

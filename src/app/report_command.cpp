@@ -26,6 +26,7 @@ namespace {
 struct ReportOptions {
   RenderOptions render;
   std::vector<std::string> estimators{"implicit", "analog"};
+  std::vector<std::string> walks{"batch"};
   std::vector<int> threads;  // empty: those of --threads
   std::string reference;
   std::optional<std::uint64_t> reference_spp;
@@ -62,17 +63,23 @@ std::vector<T> once_each(const std::vector<T>& values) {
   return kept;
 }
 
-std::vector<Estimator> estimators_of(const ReportOptions& options) {
-  std::vector<Estimator> estimators;
-  for (const std::string& name : once_each(options.estimators))
-    estimators.push_back(name == "analog" ? Estimator::analog : Estimator::implicit);
-  return estimators;
+std::vector<ReportMethod> methods_of(const ReportOptions& options) {
+  std::vector<ReportMethod> methods;
+  for (const std::string& estimator : once_each(options.estimators)) {
+    if (estimator == "analog") {
+      methods.push_back({Estimator::analog, WalkCode::scalar});
+      continue;
+    }
+    for (const std::string& walk : once_each(options.walks))
+      methods.push_back({Estimator::implicit, walk_code(walk)});
+  }
+  return methods;
 }
 
 ReportPlan plan_of(const ReportOptions& options, const Job& job) {
   ReportPlan plan;
   plan.budget = budget_of(options.render);
-  plan.estimators = estimators_of(options);
+  plan.methods = methods_of(options);
   plan.threads = options.threads.empty() ? std::vector<int>{job.threads} : once_each(options.threads);
   plan.quiet = options.render.quiet;
   for (const int threads : plan.threads)
@@ -107,7 +114,7 @@ void refuse_reference_inside(const ReportOptions& options) {
 }
 
 void check_outputs(const ReportOptions& options) {
-  check_folder(options.render.output, report_file_names(estimators_of(options), once_each(options.threads)));
+  check_folder(options.render.output, report_file_names(methods_of(options), once_each(options.threads)));
   refuse_reference_inside(options);
 }
 
@@ -152,6 +159,7 @@ void change_render_options(CLI::App& verb, RenderOptions& options) {
       "largest number of samples a pixel (64 when neither --time nor --error is given)");
   verb.get_option("--time")->description("seconds to render for, each run");
   verb.remove_option(verb.get_option("--estimator"));
+  verb.remove_option(verb.get_option("--walk"));
   verb.remove_option(verb.get_option("--stats"));
 }
 
@@ -165,6 +173,9 @@ void add_report_command(CLI::App& app, Action& action) {
   verb->add_option("--estimators,--estimator", o->estimators, "implicit,analog: those to run (all)")
       ->delimiter(',')
       ->check(CLI::IsMember({"analog", "implicit"}));
+  verb->add_option("--walks,--walk", o->walks, "batch,scalar: the code of implicit walks (batch)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"scalar", "batch"}));
   verb->add_option("--thread-counts", o->threads, "1,2: run with each of these numbers of threads")
       ->delimiter(',')
       ->check(CLI::Range(1, 1024));

@@ -125,7 +125,7 @@ const std::vector<Column>& run_columns() {
        [](const Cell& at) {
          return at.run.bias ? Json(at.run.bias->passed ? "passed" : "failed") : Json(nullptr);
        }},
-      {"bias_p", [](const Cell& at) { return at.run.bias ? finite(bias_p(*at.run.bias)) : Json(nullptr); }},
+      {"bias_p", [](const Cell& at) { return at.run.bias ? finite(at.run.bias->p) : Json(nullptr); }},
       {"bias_block_p",
        [](const Cell& at) { return at.run.bias ? finite(at.run.bias->block_p) : Json(nullptr); }},
       {"bias_image_p",
@@ -162,7 +162,7 @@ Json json_of(const std::vector<Column>& columns, const Cell& at) {
 Json run_json(const Report& report, const ReportRun& run) {
   Json object;
   object["name"] = run_name(report, run);
-  object["estimator"] = estimator_name(run.estimator);
+  object["estimator"] = estimator_name(run.method.estimator);
   object["walk"] = run.walk;
   object["threads"] = run.threads;
   object.update(json_of(run_columns(), {report, run, run.rows.back()}));
@@ -192,8 +192,8 @@ std::string report_csv(const Report& report) {
   text += ",bias_test_is\n";
   for (const ReportRun& run : report.runs) {
     for (const ReportRow& row : run.rows) {
-      text += run_name(report, run) + "," + std::string(estimator_name(run.estimator)) + "," + run.walk +
-              "," + std::to_string(run.threads);
+      text += run_name(report, run) + "," + std::string(estimator_name(run.method.estimator)) + "," +
+              run.walk + "," + std::to_string(run.threads);
       for (const Column& column : row_columns()) text += "," + cell(column.value({report, run, row}));
       const bool last = &row == &run.rows.back();
       for (const Column& column : run_columns())

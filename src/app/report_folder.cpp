@@ -59,10 +59,10 @@ class TrialFolder {
   std::vector<fs::path> made_;  // the innermost first
 };
 
-// Whether a report may have given an image that name: an estimator's, with or without a number of threads.
+// Whether a report may have given an image that name: a method's, with or without a number of threads.
 bool is_run_name(const std::string& name) {
-  for (const Estimator estimator : {Estimator::implicit, Estimator::analog}) {
-    const std::string plain(estimator_name(estimator));
+  for (const ReportMethod& method : kReportMethods) {
+    const std::string plain(method_name(method));
     if (name == plain) return true;
     if (!name.starts_with(plain + "-") || !name.ends_with("t")) continue;
     const std::string number = name.substr(plain.size() + 1, name.size() - plain.size() - 2);
@@ -127,12 +127,12 @@ void write_all(const Report& report, const std::string& folder) {
 
 }  // namespace
 
-std::vector<std::string> report_file_names(std::span<const Estimator> estimators,
+std::vector<std::string> report_file_names(std::span<const ReportMethod> methods,
                                            std::span<const int> threads) {
   std::vector<std::string> names{kTable, kData, kPlot, kPage, kReference};
-  for (const Estimator estimator : estimators) {
+  for (const ReportMethod& method : methods) {
     // Without the number where a single run was complete.
-    const std::string plain(estimator_name(estimator));
+    const std::string plain(method_name(method));
     names.push_back(plain + ".exr");
     if (threads.size() < 2) continue;
     for (const int count : threads) names.push_back(plain + "-" + std::to_string(count) + "t.exr");

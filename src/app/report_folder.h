@@ -10,7 +10,7 @@
 namespace meander {
 
 /// The names of all files that a report of these runs may write.
-[[nodiscard]] std::vector<std::string> report_file_names(std::span<const Estimator> estimators,
+[[nodiscard]] std::vector<std::string> report_file_names(std::span<const ReportMethod> methods,
                                                          std::span<const int> threads);
 
 /// Refuses before long work what writing files of these names there would refuse after it: a folder that

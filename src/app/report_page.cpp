@@ -167,7 +167,7 @@ std::string pictures(const Report& report) {
     if (again) continue;
     drawn.push_back(&run.image);
     const std::string name =
-        std::string(estimator_name(run.estimator)) + ", " + std::to_string(run.last.spp) + " samples a pixel";
+        std::string(method_name(run.method)) + ", " + std::to_string(run.last.spp) + " samples a pixel";
     text += "<h2>" + escaped(name) + "</h2>\n<div class=\"pair\">" +
             picture(shown(run.image, display), "Image") +
             picture(error_picture(run.image, report.reference.image, full, false), "Error") + "</div>\n";

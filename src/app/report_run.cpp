@@ -105,7 +105,7 @@ void judge(const Report& report, const Job& job, ReportRun& run, const std::atom
     run.bias = z_test(run.image, reference.image);
   // The samples, and so their tail, are the same on any number of threads.
   const auto same = std::ranges::find_if(report.runs, [&](const ReportRun& other) {
-    return other.estimator == run.estimator && other.fireflies;
+    return other.method.estimator == run.method.estimator && other.fireflies;
   });
   run.fireflies =
       same != report.runs.end() ? same->fireflies : find_fireflies(report, job, run.last.spp, stop);
@@ -114,18 +114,19 @@ void judge(const Report& report, const Job& job, ReportRun& run, const std::atom
 }  // namespace
 
 void make_runs(Report& report, const ReportPlan& plan, const std::atomic<bool>& stop) {
-  for (const Estimator estimator : plan.estimators) {
+  for (const ReportMethod& method : plan.methods) {
     for (const int threads : plan.threads) {
       if (stop) return;
       Job job = report.job;
-      job.estimator = estimator;
+      job.estimator = method.estimator;
+      job.walk = method.walk;
       job.threads = threads;
       ReportRun run;
-      run.estimator = estimator;
+      run.method = method;
       run.walk = describe_model(job);
       run.threads = threads;
       if (!plan.quiet)
-        std::fprintf(stderr, "%s, %d thread%s\n", std::string(estimator_name(estimator)).c_str(), threads,
+        std::fprintf(stderr, "%s, %d thread%s\n", std::string(method_name(method)).c_str(), threads,
                      threads == 1 ? "" : "s");
       Runner(report, job, plan, stop).run(run);
       if (run.rows.empty()) return;

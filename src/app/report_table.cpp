@@ -60,7 +60,7 @@ std::string reference_error(const ReportRow& row) {
 std::string bias_text(const Report& report, const ReportRun& run) {
   if (!run.bias) return "not made";
   return std::string(run.bias->passed ? "passed" : "FAILED") + (bias_is_reliable(report, run) ? "" : "?") +
-         ", p " + number(bias_p(*run.bias), "%.2g");
+         ", p " + number(run.bias->p, "%.2g");
 }
 
 std::string one_percent_text(const ReportRun& run) {
@@ -105,7 +105,7 @@ TextTable budget_table(const Report& report) {
     for (const ReportRow& row : run.rows) {
       const std::string mark = is_doubted(report, run, row) ? "?" : "";
       table.rows.push_back(
-          {std::string(estimator_name(run.estimator)), std::to_string(run.threads), std::to_string(row.spp),
+          {std::string(method_name(run.method)), std::to_string(run.threads), std::to_string(row.spp),
            number(row.seconds, "%.2f"), percent(row.noise) + (has_doubt(row) ? "?" : ""),
            percent(row.error.rms()) + mark, interval_text(row.error, mark), reference_error(row),
            number(static_cast<double>(row.counters.walks) / row.seconds / 1e6),
@@ -121,7 +121,7 @@ TextTable run_table(const Report& report) {
                   {}};
   for (const ReportRun& run : report.runs) {
     const auto& found = run.fireflies;
-    table.rows.push_back({std::string(estimator_name(run.estimator)), std::to_string(run.threads),
+    table.rows.push_back({std::string(method_name(run.method)), std::to_string(run.threads),
                           one_percent_text(run), bias_text(report, run),
                           found ? plain(found->quantile) + " x mean" : "-",
                           found ? plain(found->largest) + " x mean" : "-",

@@ -37,7 +37,7 @@ TEST_CASE("a report replaces the one before it, and no file of anyone else's") {
   Report report = prepared();
   const auto exists = [&](const char* name) { return std::filesystem::exists(folder.path() / name); };
   const auto touch = [&](const char* name) { std::ofstream(folder.path() / name) << "mine"; };
-  make_runs(report, {{2, {}, {}}, {Estimator::implicit, Estimator::analog}, {1, 2}, true}, kNever);
+  make_runs(report, {{2, {}, {}}, {kReportMethods[0], kReportMethods[2]}, {1, 2}, true}, kNever);
   write_report(report, folder.path().string());
   add_report_plot(report, Image8(2, 2), folder.path().string());
   for (const char* name : {"index.html", "report.json", "report.csv", "report.png", "reference.exr",
@@ -87,13 +87,13 @@ TEST_CASE("a report that cannot be written fails at run time, and leaves no page
 
 TEST_CASE("a folder is tried before the work, and left as it was") {
   const TemporaryFolder folder;
-  const auto names = report_file_names(std::array{Estimator::implicit}, std::array{1, 2});
+  const auto names = report_file_names(std::array{ReportMethod{}}, std::array{1, 2});
   CHECK(names.size() == 5 + 3);
   check_folder((folder.path() / "deep" / "one").string(), names);
   CHECK(std::filesystem::is_empty(folder.path()));
   std::filesystem::create_directories(folder.path() / "two" / "implicit-2t.exr");
   CHECK_THROWS_AS(check_folder((folder.path() / "two").string(), names), Error);
-  check_folder((folder.path() / "two").string(), report_file_names(std::array{Estimator::analog}, {}));
+  check_folder((folder.path() / "two").string(), report_file_names(std::array{kReportMethods[2]}, {}));
   std::filesystem::create_symlink("nowhere", folder.path() / "link");
   CHECK_THROWS_AS(check_folder((folder.path() / "link").string(), names), Error);
   CHECK(std::filesystem::is_symlink(folder.path() / "link"));

@@ -20,6 +20,6 @@ inline Report prepared() {
   return report;
 }
 
-inline ReportPlan plan_to(const Budget& budget) { return {budget, {Estimator::implicit}, {2}, true}; }
+inline ReportPlan plan_to(const Budget& budget) { return {budget, {ReportMethod{}}, {2}, true}; }
 
 }  // namespace meander

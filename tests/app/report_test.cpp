@@ -64,7 +64,7 @@ TEST_CASE("runs are named after their threads where they differ in them") {
   report.runs.resize(2);
   CHECK(run_name(report, report.runs[1]) == "implicit");
   report.runs[1].threads = 2;
-  report.runs[1].estimator = Estimator::analog;
+  report.runs[1].method = kReportMethods[2];
   CHECK(run_name(report, report.runs[0]) == "implicit-1t");
   CHECK(run_name(report, report.runs[1]) == "analog-2t");
 }

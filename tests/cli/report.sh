@@ -84,6 +84,12 @@ table = open('table.txt').read()
 assert table.count('passed, p') == 4 and '1024 samples a pixel, seed 1' in table, table
 PY
 
+# Both codes of the walk, in one report: the same samples, other seconds.
+"$meander" report ball.toml -o walks --spp 8 --walks batch,scalar --estimators implicit --quiet > walks.txt || fail "report --walks"
+[ -s walks/implicit.exr ] && [ -s walks/implicit-scalar.exr ] || fail "the images of both walks"
+"$meander" compare walks/implicit.exr walks/implicit-scalar.exr --z-test --quiet || fail "both walks agree"
+grep -q 'scalar grey' walks.txt && grep -q 'batch grey' walks.txt || fail "the table names the walks"
+
 # The page holds its pictures and asks for nothing beside itself.
 python3 - <<'PY' || fail "the page"
 import base64, re, struct, zlib
