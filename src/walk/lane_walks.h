@@ -10,8 +10,8 @@ namespace meander {
 /// start(lane, walker, random): sets up the first walk of a lane, or says false when there is none left.
 /// end(lane, result, walker, random): a walk of the lane has ended; true when another (the same one, sent
 /// back inside, or a new one) has been set up in its place. collided(lane, walker, random): see WalkEvents::
-/// scattered; the random numbers it draws are the walk's. tally(lane, path, absorbed), which a client of a
-/// model that tallies has besides: what the walk has flown, times its weight, and left behind, since the
+/// scattered; the random numbers it draws are the walk's. tally(lane, path, absorbed), which a client may
+/// have besides: what the walk has flown, times its weight, and left behind, of the first channel, since the
 /// last call.
 template <class C>
 concept LaneClient = requires(C& client, int lane, const WalkResult& result, Walker& walker, Random& random) {

@@ -66,12 +66,10 @@ void put_ball(Lanes& lanes, int lane, const EmptyBall& ball) noexcept;
 [[nodiscard]] Random random_of(const Lanes& lanes, int lane) noexcept;
 
 /// What the lanes walk through: implicit capture. `rests_at_collisions`: every collision needs a shadow ray.
-/// `tallies`: the rows `path` and `absorbed` are filled; for a grey medium in a convex region.
 struct LaneModel {
   Medium medium;
   SafeRegion region;
   bool rests_at_collisions = false;
-  bool tallies = false;
 };
 
 /// Which code walks: the scalar oracle, or lanes of SIMD wherever those can (implicit capture, no light
