@@ -110,8 +110,9 @@ double length_inside(const AffineShape<Unit>& shape, const Approach& ray, const 
   return std::max(std::min(interval->far, distance + ray.slack) - std::max(interval->near, ray.slack), 0.0);
 }
 
-double length_inside(const MeshBody& mesh, const Approach& ray, const Placement& placement,
-                     double distance) noexcept {
+// From one surface to the next.
+double sum_lengths_inside(const MeshBody& mesh, const Approach& ray, const Placement& placement,
+                          double distance) noexcept {
   double inside = 0;
   double done = 0;
   for (Approach rest = ray; done < distance;) {
@@ -125,6 +126,18 @@ double length_inside(const MeshBody& mesh, const Approach& ray, const Placement&
     rest = {DVec3(hit->point) + step * DVec3(ray.direction), ray.direction, 0};
   }
   return inside;
+}
+
+double length_inside(const MeshBody& mesh, const Approach& ray, const Placement& placement,
+                     double distance) noexcept {
+  const auto entry = bounds_entry(ray, mesh.half_size());
+  if (!entry || *entry >= distance + ray.slack) return 0;
+  if (ray.slack == 0) {
+    const Vec3 origin = local_origin(ray, *entry);
+    const auto length = mesh.length_inside(origin, ray.direction, distance - *entry, *entry > 0);
+    if (length) return *length;
+  }
+  return sum_lengths_inside(mesh, ray, placement, distance);
 }
 
 template <class Shape>
