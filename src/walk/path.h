@@ -12,6 +12,7 @@
 #include "walk/lobe.h"
 #include "walk/random_walk.h"
 #include "walk/rough_interface.h"
+#include "walk/shadow_roulette.h"
 #include "walk/sink.h"
 
 namespace meander {

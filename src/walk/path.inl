@@ -126,6 +126,7 @@ void PathTracer<G>::collect_environment(const State& state, S& sink) const noexc
 // One light seen from a vertex. weigh(direction, competing, delta) is f / (competing + f), f the density of
 // the vertex's lobe or phase function, which is also its value: the balance heuristic against the path
 // finding the light by itself, over all channels; for a light without extent it is f / competing.
+// weigh.draw, where there is one, decides whether the shadow ray is worth tracing.
 template <SceneGeometry G>
 template <Sink S, class Weigh>
 void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const Weigh& weigh, const Vec2& u,
@@ -136,6 +137,11 @@ void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const 
   const PathWeight& weight = vertex.weight;
   if constexpr (requires { weigh.density(sample->direction); })
     if (!(weigh.density(sample->direction) > 0)) return;
+  Real lifted = 1;
+  if constexpr (requires { weigh.draw(*sample, vertex.light_choice); }) {
+    lifted = weigh.draw(*sample, vertex.light_choice);
+    if (lifted == 0) return;
+  }
   ++counters_.rays;
   const Rgb through =
       geometry_.transmittance({vertex.vertex, sample->direction, vertex.departure}, sample->distance);
@@ -145,7 +151,7 @@ void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const 
   const Real competing = sample->pdf * vertex.light_choice * average(weight.ratio) / mean;
   const Real part = weigh(sample->direction, competing, sample->delta);
   if (!(part > 0)) return;
-  const Rgb radiance = weight.throughput * (passed / mean) * part * sample->radiance;
+  const Rgb radiance = weight.throughput * (passed / mean) * (lifted * part) * sample->radiance;
   sink.add(detail::make_contribution(weight, radiance, light_group(scene_, light)));
 }
 

@@ -30,12 +30,14 @@ inline constexpr Real kRouletteThreshold = Real(0.3);
 /// Steps between two questions whether to stop.
 inline constexpr std::uint64_t kStopInterval = 1024;
 
-/// A walk under way, in the body's own coordinates. `last` is the deflection that made the direction.
+/// A walk under way, in the body's own coordinates. `last` is the deflection that made the direction;
+/// `clearance` a lower bound of the distance to the surface, 0 where none is known.
 struct Walker {
   Vec3 position{0};
   Vec3 direction{0, 0, 1};
   PathWeight weight;
   Deflection last{1, 0, 2, 0};
+  Real clearance = 0;
   std::uint64_t steps = 0;
 };
 
