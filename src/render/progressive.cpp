@@ -12,6 +12,11 @@ namespace {
 // How many pixels of the job `count` pixels of the film touch.
 int scaled(int count, int scale) noexcept { return (count + scale - 1) / scale; }
 
+std::uint32_t pixel_index(const Job& job, int x, int y) noexcept {
+  const int stride = scaled(job.scene->film.width, job.scale);
+  return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(stride) + static_cast<std::uint32_t>(x);
+}
+
 bool is_chromatic(const Scene& scene) {
   for (const Material& material : scene.materials)
     if (const auto* translucent = std::get_if<TranslucentMaterial>(&material.kind))
@@ -81,10 +86,15 @@ struct Pass {
       Random random = sample_stream(job, image_x, image_y, before.spp + k);
       const double u = random.next();
       const double v = random.next();
+      const int hero = sample_hero(job, image_x, image_y, before.spp + k);
       SampleSink sink;
-      if (!tracer.trace(film_ray(job, camera, image_x + u, image_y + v), random, sink)) return false;
+      if (!tracer.trace(film_ray(job, camera, image_x + u, image_y + v), random, sink, hero)) return false;
       const bool finite = std::isfinite(sink.radiance.x + sink.radiance.y + sink.radiance.z);
-      pixel.add(finite ? sink.radiance : Rgb(0));
+      const Rgb value = finite ? sink.radiance : Rgb(0);
+      if (options.chromatic)
+        pixel.add(value, hero);
+      else
+        pixel.add(value);
       if (finite)
         pixel.paths += sink.paths;
       else
@@ -111,10 +121,12 @@ Ray film_ray(const Job& job, const CameraRays& camera, double x, double y) noexc
 }
 
 Random sample_stream(const Job& job, int x, int y, std::uint64_t k) noexcept {
-  const int stride = scaled(job.scene->film.width, job.scale);
-  const auto index =
-      static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(stride) + static_cast<std::uint32_t>(x);
-  return stream(job.seed, index, job.first_sample + static_cast<std::uint32_t>(k));
+  return stream(job.seed, pixel_index(job, x, y), job.first_sample + static_cast<std::uint32_t>(k));
+}
+
+int sample_hero(const Job& job, int x, int y, std::uint64_t k) noexcept {
+  const auto first = static_cast<std::uint64_t>(stream(~job.seed, pixel_index(job, x, y), 0).next() * 3);
+  return static_cast<int>((first + job.first_sample + k) % 3);
 }
 
 PathOptions path_options(const Job& job, const std::atomic<bool>& stop) {

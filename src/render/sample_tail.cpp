@@ -33,7 +33,8 @@ struct TailRows {
         const double u = random.next();
         const double v = random.next();
         RadianceSink sink;
-        if (!tracer.trace(film_ray(job, camera, image_x + u, image_y + v), random, sink)) return false;
+        const int hero = sample_hero(job, image_x, image_y, k);
+        if (!tracer.trace(film_ray(job, camera, image_x + u, image_y + v), random, sink, hero)) return false;
         const double value = luminance(sink.radiance);
         found.add(std::isfinite(value) ? value * scale : 0);
       }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 
 #include "scene/crossing.h"
 #include "walk/interface.h"
@@ -62,9 +63,12 @@ class PathTracer {
   PathTracer(const Scene& scene, const G& geometry, const PathOptions& options) noexcept
       : scene_(scene), geometry_(geometry), options_(options) {}
 
-  /// Traces one path and hands its contributions to the sink; false when it was interrupted.
+  /// Traces one path and hands its contributions to the sink; false when it was interrupted. `hero` is the
+  /// channel that samples a chromatic path's distances, uniformly distributed over the paths of a pixel;
+  /// without it, it is drawn.
   template <Sink S>
-  [[nodiscard]] bool trace(const Ray& camera_ray, Random& random, S& sink) noexcept;
+  [[nodiscard]] bool trace(const Ray& camera_ray, Random& random, S& sink,
+                           std::optional<int> hero = std::nullopt) noexcept;
 
   [[nodiscard]] const PathCounters& counters() const noexcept { return counters_; }
 

@@ -5,11 +5,11 @@ namespace meander {
 
 template <SceneGeometry G>
 template <Sink S>
-bool PathTracer<G>::trace(const Ray& camera_ray, Random& random, S& sink) noexcept {
+bool PathTracer<G>::trace(const Ray& camera_ray, Random& random, S& sink, std::optional<int> hero) noexcept {
   State state;
   state.ray = camera_ray;
   state.vertex = camera_ray.origin;
-  if (options_.chromatic) state.weight.hero = std::min(static_cast<int>(random.next() * 3), 2);
+  if (options_.chromatic) state.weight.hero = hero ? *hero : std::min(static_cast<int>(random.next() * 3), 2);
   for (std::uint64_t vertices = 1;; ++vertices) {
     if (vertices % kStopInterval == 0 && stop()) return false;
     const Step step = advance(state, random, sink);
