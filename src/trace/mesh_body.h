@@ -58,6 +58,12 @@ class MeshBody {
   /// or beyond it, by at most 2^-20 of the scale.
   [[nodiscard]] std::optional<Nearest> nearest(const Vec3& p, Real limit) const noexcept;
 
+  /// How much of `distance` (may be infinite) of a ray lies inside the mesh, which must be closed; `outside`
+  /// says that the ray is known to start there. In one traversal; nothing where that is in doubt: beside an
+  /// edge, at a grazing angle, past a hole, with more than 16 meetings.
+  [[nodiscard]] std::optional<double> length_inside(const Vec3& o, const Vec3& d, double distance,
+                                                    bool outside) const noexcept;
+
   /// Half the size of the bounds along each axis.
   [[nodiscard]] const Vec3& half_size() const noexcept { return half_size_; }
 
