@@ -1,6 +1,8 @@
 // The walk in lanes on one core, in the cases of walk_bench.cpp. Never a test: timings are for reading.
 #include <benchmark/benchmark.h>
 
+#include <hwy/cache_control.h>
+
 #include <chrono>
 #include <cmath>
 
@@ -27,6 +29,11 @@ struct Endless {
   [[nodiscard]] bool start(int, Walker& walker, Random& random) noexcept {
     if (left == 0) return false;
     --left;
+    // Entries are known some walks ahead, as camera rays are.
+    if constexpr (requires { launch.place(random); }) {
+      Random ahead = stream(0, 0, next + 16);
+      hwy::Prefetch(&launch.place(ahead));
+    }
     random = stream(0, 0, next++);
     walker = Walker{};
     launch(walker, random);
@@ -126,9 +133,12 @@ BENCHMARK_CAPTURE(lanes_flags, both, true, true)->ArgNames(kArgs)->Args({10, 3})
 BENCHMARK_CAPTURE(lanes_mesh_sphere, isotropic, Real(0))
     ->ArgNames(kMeshArgs)
     ->Args({10, 3, 128})
-    ->Args({10, 3, 64});
+    ->Args({10, 3, 64})
+    ->Args({10, 3, 96});
 BENCHMARK_CAPTURE(lanes_torus_knot, isotropic, Real(0))
     ->ArgNames(kMeshArgs)
     ->Args({10, 3, 128})
     ->Args({10, 3, 64})
-    ->Args({100, 3, 128});
+    ->Args({100, 3, 128})
+    ->Args({100, 3, 64})
+    ->Args({100, 3, 32});
