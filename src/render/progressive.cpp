@@ -89,7 +89,9 @@ bool Passes::advance(const Rendering& before, std::uint64_t samples, Rendering& 
   const int height = area_.y1 - area_.y0;
   if (after.film.width != width || after.film.height != height) after.film = Film(width, height);
   const bool lanes = uses_lanes(job_);
-  const TilePass pass{job_, camera_, area_, path_options(job_, stop_), samples, before, after.film, lanes};
+  const EmptyPixels empty(job_, camera_);
+  const TilePass pass{job_,    camera_, empty,      area_, path_options(job_, stop_),
+                      samples, before,  after.film, lanes};
   const std::vector<Tile> tiles = make_tiles(width, height, {}, tile_size(area_, samples, lanes));
   std::vector<TileResult> results(tiles.size());
   parallel_for(

@@ -36,6 +36,9 @@ class Geometry {
   /// Half the object's largest extent, about.
   [[nodiscard]] Real size(std::size_t object) const noexcept { return bodies_[object].size; }
 
+  /// Of a ball about the object's origin that holds all of it; infinite for a slab.
+  [[nodiscard]] double radius(std::size_t object) const noexcept { return bodies_[object].radius; }
+
   /// The object's own origin, in the world.
   [[nodiscard]] const DVec3& center(std::size_t object) const noexcept { return bodies_[object].center; }
 
@@ -98,6 +101,7 @@ class Geometry {
     std::variant<SphereBody, BoxBody, SlabBody, SharedMesh> shape;
     DVec3 center;
     Real size;
+    double radius;
     bool closed;   // it holds a medium: its surface has an inside
     bool matched;  // light passes it unscattered
     bool holds_light;

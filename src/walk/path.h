@@ -106,6 +106,10 @@ class PathTracer {
   template <Sink S>
   [[nodiscard]] PathStep resume(Path& path, const WalkResult& walked, Random& random, S& sink) noexcept;
 
+  /// What a camera ray finds of which it is known that it meets no surface.
+  template <Sink S>
+  void escape(const Ray& camera_ray, S& sink) const noexcept;
+
   /// The walk that a path needs, by the scalar code.
   template <Sink S>
   [[nodiscard]] WalkResult walk(Path& path, Random& random, S& sink) noexcept;

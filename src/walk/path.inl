@@ -46,6 +46,15 @@ PathStep PathTracer<G>::resume(Path& path, const WalkResult& walked, Random& ran
 
 template <SceneGeometry G>
 template <Sink S>
+void PathTracer<G>::escape(const Ray& camera_ray, S& sink) const noexcept {
+  State state;
+  state.ray = camera_ray;
+  state.vertex = camera_ray.origin;
+  if (!collect_lights(state, std::numeric_limits<double>::infinity(), sink)) collect_environment(state, sink);
+}
+
+template <SceneGeometry G>
+template <Sink S>
 WalkResult PathTracer<G>::walk(Path& path, Random& random, S& sink) noexcept {
   return Passage<S>{*this, path, random, sink}.walk();
 }
