@@ -168,8 +168,9 @@ MeshBody::Begun MeshBody::restore(Begun begun, Real distance) const noexcept {
   return begun;
 }
 
-MeshBody::Begun MeshBody::begin_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
-  const Begun begun = restore(cross(p * inverse_scale_, d, distance * inverse_scale_), distance);
+MeshBody::Begun MeshBody::begin_crossing(const Vec3& p, const Vec3& d, Real distance,
+                                         const ShortHint& hint) const noexcept {
+  const Begun begun = restore(cross(p * inverse_scale_, d, distance * inverse_scale_, hint), distance);
   if (begun.triangle != Begun::kNoTriangle && !normals_.empty()) {
     const auto* normals = reinterpret_cast<const char*>(&normals_[begun.triangle]);
     hwy::Prefetch(normals);
@@ -216,10 +217,13 @@ MeshBody::Begun MeshBody::without_exit(const Vec3& p, const Vec3& d, Real distan
 
 // Looking from a little behind finds the exit that rounding may have carried the point across; looking a
 // little too far finds the surface that the end of the step may round across.
-MeshBody::Begun MeshBody::cross(const Vec3& p, const Vec3& d, Real distance) const noexcept {
-  const ShortExit exit =
-      find_exit(packets_, cells_,
-                {glm::vec3(p - kMargin * d), glm::vec3(d), static_cast<float>(distance + 2 * kMargin)});
+ShortRay MeshBody::short_ray(const Vec3& p, const Vec3& d, Real distance) noexcept {
+  return {glm::vec3(p - kMargin * d), glm::vec3(d), static_cast<float>(distance + 2 * kMargin)};
+}
+
+MeshBody::Begun MeshBody::cross(const Vec3& p, const Vec3& d, Real distance,
+                                const ShortHint& hint) const noexcept {
+  const ShortExit exit = find_exit(packets_, cells_, short_ray(p, d, distance), hint);
   if (exit.kind == ShortExit::Kind::none) return without_exit(p, d, distance);
   if (exit.kind == ShortExit::Kind::unknown || exit.distance < kMargin) return cross_in_tree(p, d, distance);
   return cross_at(p, d, distance,

@@ -64,8 +64,13 @@ class MeshBody {
     Real v = 0;
   };
 
-  /// first_crossing in two halves, for who has several steps under way.
-  [[nodiscard]] Begun begin_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+  /// first_crossing in three parts, for who has several steps under way: the first is best done for all of
+  /// them before the second of any, and so on.
+  [[nodiscard]] ShortHint foresee_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+    return foresee_exit(packets_, cells_, short_ray(p * inverse_scale_, d, distance * inverse_scale_));
+  }
+  [[nodiscard]] Begun begin_crossing(const Vec3& p, const Vec3& d, Real distance,
+                                     const ShortHint& hint = {}) const noexcept;
   [[nodiscard]] Crossing finish_crossing(const Begun& begun) const noexcept;
 
   /// Asks for the memory that a step from here will need, so that it is near when the step is asked for.
@@ -116,7 +121,9 @@ class MeshBody {
   [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Real u, Real v,
                                     const Vec3& normal) const noexcept;
   [[nodiscard]] bool is_outside(const Vec3& p, const Vec3& d) const noexcept;
-  [[nodiscard]] Begun cross(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+  [[nodiscard]] static ShortRay short_ray(const Vec3& p, const Vec3& d, Real distance) noexcept;
+  [[nodiscard]] Begun cross(const Vec3& p, const Vec3& d, Real distance,
+                            const ShortHint& hint) const noexcept;
   [[nodiscard]] Begun cross_in_tree(const Vec3& p, const Vec3& d, Real distance) const noexcept;
   [[nodiscard]] static Begun cross_at(const Vec3& p, const Vec3& d, Real distance, const Met& met) noexcept;
   [[nodiscard]] Begun without_exit(const Vec3& p, const Vec3& d, Real distance) const noexcept;

@@ -45,14 +45,17 @@ class ExitSearch {
   [[nodiscard]] HWY_INLINE float distance() const { return distance_; }
   [[nodiscard]] HWY_INLINE const ShortExit& found() const { return found_; }
 
-  HWY_INLINE void look_into(const SurfaceCells::List& list, bool more) {
-    std::uint32_t numbers[4];
-    for (int i = 0; i < 4; ++i) numbers[i] = list.packets[i];
-    if (more) numbers[3] = packets_.nothing();
+  // The packets of a list that the ray may leave by, a bit for each.
+  [[nodiscard]] HWY_INLINE unsigned due(const SurfaceCells::List& list) const {
+    const bool more = list.packets[3] >= SurfaceCells::kMore;
     unsigned due = 0;
-    for (unsigned i = 0; i < 4; ++i) due |= static_cast<unsigned>(may_leave(numbers[i])) << i;
+    for (unsigned i = 0; i < 3; ++i) due |= static_cast<unsigned>(may_leave(list.packets[i])) << i;
+    return due | static_cast<unsigned>(may_leave(more ? packets_.nothing() : list.packets[3])) << 3;
+  }
+
+  HWY_INLINE void look_into(const SurfaceCells::List& list, unsigned due) {
     for (; due != 0; due &= due - 1) {
-      const Packet& packet = packets_.packets[numbers[std::countr_zero(due)]];
+      const Packet& packet = packets_.packets[list.packets[std::countr_zero(due)]];
       for (std::size_t at = 0; at < kPacket; at += hn::Lanes(F())) look_into(packet, at);
     }
   }
@@ -188,15 +191,15 @@ HWY_INLINE const SurfaceCells::List* list_of(const SurfaceCells& grid, const glm
   return grid.lists.data() + brick.first + std::popcount(before);
 }
 
-ShortExit find(const Packets& packets, const SurfaceCells& grid, const ShortRay& ray) {
+ShortExit find(const Packets& packets, const SurfaceCells& grid, const ShortRay& ray, const ShortHint& hint) {
   if (!(ray.distance * grid.cells_per_unit < kLongest)) return {};
   ExitSearch search(packets, ray);
   CellWalk walk(grid, ray);
   if (!in_grid(grid, walk.cell)) return {};
   for (int i = 0; i < kMostCells; ++i) {
     for (const SurfaceCells::List* list = list_of(grid, walk.cell); list != nullptr;) {
+      search.look_into(*list, list == hint.list ? hint.due : search.due(*list));
       const bool more = list->packets[3] >= SurfaceCells::kMore;
-      search.look_into(*list, more);
       list = more ? grid.lists.data() + (list->packets[3] - SurfaceCells::kMore) : nullptr;
     }
     if (walk.end() >= search.distance()) return search.found();
@@ -204,6 +207,20 @@ ShortExit find(const Packets& packets, const SurfaceCells& grid, const ShortRay&
     if (!in_grid(grid, walk.cell)) return search.found();
   }
   return {};
+}
+
+ShortHint foresee(const Packets& packets, const SurfaceCells& grid, const ShortRay& ray) {
+  if (!(ray.distance * grid.cells_per_unit < kLongest)) return {};
+  const glm::ivec3 cell(glm::floor((ray.origin - grid.low) * grid.cells_per_unit));
+  if (!in_grid(grid, cell)) return {};
+  const SurfaceCells::List* list = list_of(grid, cell);
+  if (list == nullptr) return {};
+  const ShortHint hint{list, ExitSearch(packets, ray).due(*list)};
+  for (unsigned due = hint.due; due != 0; due &= due - 1) {
+    const auto* lines = reinterpret_cast<const char*>(&packets.packets[list->packets[std::countr_zero(due)]]);
+    for (std::size_t at = 0; at < sizeof(Packet); at += 64) hwy::Prefetch(lines + at);
+  }
+  return hint;
 }
 
 void prefetch(const Packets& packets, const SurfaceCells& grid, const glm::vec3& origin) {
@@ -227,10 +244,16 @@ HWY_AFTER_NAMESPACE();
 namespace meander {
 
 HWY_EXPORT(find);
+HWY_EXPORT(foresee);
 HWY_EXPORT(prefetch);
 
-ShortExit find_exit(const Packets& packets, const SurfaceCells& cells, const ShortRay& ray) noexcept {
-  return HWY_DYNAMIC_DISPATCH(find)(packets, cells, ray);
+ShortExit find_exit(const Packets& packets, const SurfaceCells& cells, const ShortRay& ray,
+                    const ShortHint& hint) noexcept {
+  return HWY_DYNAMIC_DISPATCH(find)(packets, cells, ray, hint);
+}
+
+ShortHint foresee_exit(const Packets& packets, const SurfaceCells& cells, const ShortRay& ray) noexcept {
+  return HWY_DYNAMIC_DISPATCH(foresee)(packets, cells, ray);
 }
 
 void prefetch_exit(const Packets& packets, const SurfaceCells& cells, const glm::vec3& origin) noexcept {

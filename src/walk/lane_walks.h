@@ -112,10 +112,11 @@ class LaneWalks {
     return {lanes_.position[0][lane], lanes_.position[1][lane], lanes_.position[2][lane]};
   }
 
-  // Rays are begun for all resting lanes together where the world can, so that it waits for memory once.
+  // Rays are begun for all resting lanes together where the world can, part by part, so that one does not
+  // wait for what another waits for.
   static constexpr bool kTogether = requires(const W& world, const Vec3& p, Real t) {
     world.prefetch(p);
-    world.finish_crossing(world.begin_crossing(p, p, t));
+    world.finish_crossing(world.begin_crossing(p, p, t, world.foresee_crossing(p, p, t)));
   };
 
   void find_resting() noexcept {
@@ -127,18 +128,36 @@ class LaneWalks {
     }
   }
 
+  // A ray under way: what balls do not answer for of a lane's step.
+  struct LaneRay {
+    int lane;
+    Vec3 origin;
+    Vec3 direction;
+    Real distance;
+  };
+
   void begin_rays() noexcept {
-    int crossing[kLanes];
+    LaneRay rays[kLanes];
+    decltype(std::declval<const W&>().foresee_crossing(Vec3(), Vec3(), Real())) hints[kLanes];
     int count = 0;
-    for (int i = 0; i < resting_count_; ++i)
-      if (lanes_.state[resting_[i]] == static_cast<std::uint32_t>(LaneState::crossing))
-        crossing[count++] = resting_[i];
-    for (int i = 0; i < count; ++i) world_.prefetch(Vec3(position(crossing[i])));
-    for (int i = 0; i < count; ++i) begin_ray(crossing[i]);
+    for (int i = 0; i < resting_count_; ++i) {
+      const int lane = resting_[i];
+      if (lanes_.state[lane] != static_cast<std::uint32_t>(LaneState::crossing)) continue;
+      LaneRay& ray = rays[count];
+      ray = ray_of(lane);
+      count += ray.distance > 0;
+    }
+    counters_.rays += static_cast<std::uint64_t>(count);
+    for (int i = 0; i < count; ++i) world_.prefetch(rays[i].origin);
+    for (int i = 0; i < count; ++i)
+      hints[i] = world_.foresee_crossing(rays[i].origin, rays[i].direction, rays[i].distance);
+    for (int i = 0; i < count; ++i)
+      begun_[rays[i].lane] =
+          world_.begin_crossing(rays[i].origin, rays[i].direction, rays[i].distance, hints[i]);
   }
 
-  // The step of a lane; a long one's first part is often in balls.
-  void begin_ray(int lane) noexcept {
+  // The first part of a long step is often in balls, and all of some.
+  [[nodiscard]] LaneRay ray_of(int lane) noexcept {
     const Vec3 p(position(lane));
     const Vec3 d(lanes_.direction[0][lane], lanes_.direction[1][lane], lanes_.direction[2][lane]);
     const Real distance(lanes_.distance[lane]);
@@ -147,9 +166,7 @@ class LaneWalks {
     if (balls && distance * Real(balls->cells_per_unit) > 1)
       clear = balls->clear_length(ball_of(lanes_, lane), position(lane), glm::vec3(d), lanes_.distance[lane]);
     clear_[lane] = clear;
-    if (clear == distance) return;
-    ++counters_.rays;
-    begun_[lane] = world_.begin_crossing(p + clear * d, d, distance - clear);
+    return {lane, p + clear * d, d, distance - clear};
   }
 
   [[nodiscard]] Crossing finish_ray(int lane, const Walker& walker) noexcept {
