@@ -8,6 +8,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/digest.h"
+#include "scene/scene_digest.h"
+
 namespace meander {
 namespace {
 
@@ -65,7 +68,9 @@ std::string stats_json(const Job& job, const Rendering& rendering, const char* e
 
 ImageAttributes image_attributes(const Job& job, const Rendering& rendering) {
   ImageAttributes attributes;
-  attributes.text = {{"meander/scene", job.scene->name}, {"meander/version", version_text()}};
+  attributes.text = {{"meander/scene", job.scene->name},
+                     {kDigestAttribute, hex_text(digest_of(*job.scene))},
+                     {"meander/version", version_text()}};
   // Seeds beyond what an attribute's integer holds travel as text.
   const bool fits = job.seed <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   if (!fits) attributes.text.emplace_back("meander/seed", std::to_string(job.seed));

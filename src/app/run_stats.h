@@ -18,7 +18,10 @@ namespace meander {
 inline constexpr const char* kNoiseAttribute = "meander/relative_noise";
 inline constexpr const char* kNoisePixelsAttribute = "meander/noise_pixels";
 
-/// scene, seed, spp, first sample and version; the relative noise, and of how many pixels it is, where there
+/// The attribute that tells scenes apart (scene/scene_digest.h), as hexadecimal text.
+inline constexpr const char* kDigestAttribute = "meander/scene_digest";
+
+/// scene and its digest, seed, spp, first sample and version; the relative noise, and of how many pixels it is, where there
 /// is one.
 [[nodiscard]] ImageAttributes image_attributes(const Job& job, const Rendering& rendering);
 

@@ -84,7 +84,7 @@ void check_writable(const std::string& path, std::span<const std::string_view> e
   std::error_code ignored;
   if (fs::is_directory(wanted, ignored)) throw cannot_write(path, "it is a directory");
   const std::string extension = lower(wanted.extension().string());
-  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+  if (!extensions.empty() && std::ranges::find(extensions, extension) == extensions.end()) {
     throw cannot_write(path, (extension.empty() ? "it has no file type" : "unknown file type " + extension) +
                                  "; use " + list_names(extensions));
   }
@@ -98,8 +98,12 @@ void check_writable(const std::string& path, std::span<const std::string_view> e
 }
 
 void write_file(const std::string& path, std::span<const std::byte> bytes) {
+  write_file(path, std::span(&bytes, 1));
+}
+
+void write_file(const std::string& path, std::span<const std::span<const std::byte>> parts) {
   Partial partial(path);
-  partial.write(bytes);
+  for (const std::span<const std::byte> part : parts) partial.write(part);
   partial.commit();
 }
 

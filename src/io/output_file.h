@@ -9,7 +9,7 @@
 namespace meander {
 
 /// Refuses before long work what write_file would refuse after it. `extensions` are the file types allowed,
-/// in lower case with their dot (".exr"); the path's may be in any case. Leaves nothing behind. Error
+/// in lower case with their dot (".exr"), none for any; the path's may be in any case. Leaves nothing behind. Error
 /// (input): unknown type, no such folder, a folder that cannot be written, an existing directory, an existing
 /// read-only file.
 void check_writable(const std::string& path, std::span<const std::string_view> extensions);
@@ -18,5 +18,8 @@ void check_writable(const std::string& path, std::span<const std::string_view> e
 /// device before it is renamed. Error (input) with the system's reason, and no file of either name made, when
 /// it fails.
 void write_file(const std::string& path, std::span<const std::byte> bytes);
+
+/// The same of parts that follow one another in the file.
+void write_file(const std::string& path, std::span<const std::span<const std::byte>> parts);
 
 }  // namespace meander
