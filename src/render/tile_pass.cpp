@@ -23,9 +23,31 @@ struct SampleSink {
   }
 };
 
-void add_sample(const SampleSink& sink, Pixel& pixel, TileResult& result) noexcept {
+// A sample of a pixel: where it is in the image, and which of the job's it is.
+struct SamplePlace {
+  int x;
+  int y;
+  std::uint64_t k;
+};
+
+PathStart start_of(const TilePass& pass, const SamplePlace& at) noexcept {
+  PathStart start;
+  start.random = sample_stream(pass.job, at.x, at.y, at.k);
+  const double u = start.random.next();
+  const double v = start.random.next();
+  start.ray = film_ray(pass.job, pass.camera, at.x + u, at.y + v);
+  if (pass.options.chromatic) start.hero = sample_hero(pass.job, at.x, at.y, at.k);
+  return start;
+}
+
+void add_sample(const TilePass& pass, const SamplePlace& at, const SampleSink& sink, Pixel& pixel,
+                TileResult& result) noexcept {
   const bool finite = std::isfinite(sink.radiance.x + sink.radiance.y + sink.radiance.z);
-  pixel.add(finite ? sink.radiance : Rgb(0));
+  const Rgb value = finite ? sink.radiance : Rgb(0);
+  if (pass.options.chromatic)
+    pixel.add(value, sample_hero(pass.job, at.x, at.y, at.k));
+  else
+    pixel.add(value);
   if (finite)
     pixel.paths += sink.paths;
   else
@@ -41,16 +63,15 @@ struct TileSamples {
   std::vector<SampleSink> found;
   std::size_t drawn = 0;
 
-  [[nodiscard]] bool next(std::size_t& sample, Ray& ray, Random& random) noexcept {
-    if (drawn == found.size()) return false;
-    sample = drawn++;
+  [[nodiscard]] SamplePlace place(std::size_t sample) const noexcept {
     const auto pixel = static_cast<int>(sample / count);
-    const int x = pass.area.x0 + tile.x0 + pixel % (tile.x1 - tile.x0);
-    const int y = pass.area.y0 + tile.y0 + pixel / (tile.x1 - tile.x0);
-    random = sample_stream(pass.job, x, y, first + sample % count);
-    const double u = random.next();
-    const double v = random.next();
-    ray = film_ray(pass.job, pass.camera, x + u, y + v);
+    return {pass.area.x0 + tile.x0 + pixel % (tile.x1 - tile.x0),
+            pass.area.y0 + tile.y0 + pixel / (tile.x1 - tile.x0), first + sample % count};
+  }
+  [[nodiscard]] bool next(PathStart& start) noexcept {
+    if (drawn == found.size()) return false;
+    start = start_of(pass, place(drawn));
+    start.sample = drawn++;
     return true;
   }
   void done(std::size_t sample, const SampleSink& sink) noexcept { found[sample] = sink; }
@@ -66,15 +87,11 @@ bool render_scalar(const TilePass& pass, const Tile& tile, PathTracer<Geometry>&
       if (tracer.stop()) return false;
       Pixel pixel = pixel_before(pass, x, y);
       for (std::uint64_t k = 0; k < pass.samples; ++k) {
-        const int image_x = pass.area.x0 + x;
-        const int image_y = pass.area.y0 + y;
-        Random random = sample_stream(pass.job, image_x, image_y, pass.before.spp + k);
-        const double u = random.next();
-        const double v = random.next();
+        const SamplePlace at{pass.area.x0 + x, pass.area.y0 + y, pass.before.spp + k};
+        PathStart start = start_of(pass, at);
         SampleSink sink;
-        if (!tracer.trace(film_ray(pass.job, pass.camera, image_x + u, image_y + v), random, sink))
-          return false;
-        add_sample(sink, pixel, result);
+        if (!tracer.trace(start.ray, start.random, sink, start.hero)) return false;
+        add_sample(pass, at, sink, pixel, result);
       }
       pass.after.at(x, y) = pixel;
     }
@@ -98,7 +115,10 @@ bool render_lanes(const TilePass& pass, const Tile& tile, PathTracer<Geometry>& 
       const int x = tile.x0 + static_cast<int>(i) % width;
       const int y = tile.y0 + static_cast<int>(i) / width;
       Pixel pixel = done > 0 ? pass.after.at(x, y) : pixel_before(pass, x, y);
-      for (std::size_t k = 0; k < count; ++k) add_sample(samples.found[i * count + k], pixel, result);
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t sample = i * count + k;
+        add_sample(pass, samples.place(sample), samples.found[sample], pixel, result);
+      }
       pass.after.at(x, y) = pixel;
     }
     done += count;

@@ -110,8 +110,9 @@ double length_inside(const AffineShape<Unit>& shape, const Approach& ray, const 
   return std::max(std::min(interval->far, distance + ray.slack) - std::max(interval->near, ray.slack), 0.0);
 }
 
-double length_inside(const MeshBody& mesh, const Approach& ray, const Placement& placement,
-                     double distance) noexcept {
+// From one surface to the next.
+double sum_lengths_inside(const MeshBody& mesh, const Approach& ray, const Placement& placement,
+                          double distance) noexcept {
   double inside = 0;
   double done = 0;
   for (Approach rest = ray; done < distance;) {
@@ -125,6 +126,18 @@ double length_inside(const MeshBody& mesh, const Approach& ray, const Placement&
     rest = {DVec3(hit->point) + step * DVec3(ray.direction), ray.direction, 0};
   }
   return inside;
+}
+
+double length_inside(const MeshBody& mesh, const Approach& ray, const Placement& placement,
+                     double distance) noexcept {
+  const auto entry = bounds_entry(ray, mesh.half_size());
+  if (!entry || *entry >= distance + ray.slack) return 0;
+  if (ray.slack == 0) {
+    const Vec3 origin = local_origin(ray, *entry);
+    const auto length = mesh.length_inside(origin, ray.direction, distance - *entry, *entry > 0);
+    if (length) return *length;
+  }
+  return sum_lengths_inside(mesh, ray, placement, distance);
 }
 
 template <class Shape>
@@ -228,7 +241,7 @@ bool Geometry::finish(const std::atomic<bool>& stop) const {
   });
 }
 
-SafeRegion Geometry::safe_region(std::size_t object) const {
+SafeRegion Geometry::safe_region(std::size_t object) const noexcept {
   const auto region_of = [](const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, SharedMesh>)
       return SafeRegion{.kind = SafeRegion::Kind::balls, .balls = &shape->balls.get()};
@@ -236,6 +249,10 @@ SafeRegion Geometry::safe_region(std::size_t object) const {
       return convex_region(shape);
   };
   return std::visit(region_of, bodies_[object].shape);
+}
+
+Real Geometry::clearance(std::size_t object, const Vec3& point) const noexcept {
+  return walks_in_lanes(object) ? safe_region(object).clearance(point) : Real(0);
 }
 
 Real Geometry::offset(std::size_t object, const Vec3& point) const noexcept {
