@@ -131,8 +131,9 @@ void CheckpointKeeper::keep(const Rendering& rendering) {
   if (since_.seconds() >= every_) save(rendering);
 }
 
-void CheckpointKeeper::keep_last(const Rendering& rendering) {
+bool CheckpointKeeper::keep_last(const Rendering& rendering) {
   if (rendering.spp != kept_spp_) save(rendering);
+  return rendering.spp == kept_spp_;
 }
 
 void CheckpointKeeper::save(const Rendering& rendering) {

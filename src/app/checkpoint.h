@@ -27,8 +27,8 @@ class CheckpointKeeper {
 
   /// After a pass.
   void keep(const Rendering& rendering);
-  /// Once the run has ended.
-  void keep_last(const Rendering& rendering);
+  /// Once the run has ended. Whether the file now holds all of it.
+  bool keep_last(const Rendering& rendering);
 
  private:
   void save(const Rendering& rendering);

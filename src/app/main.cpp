@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <new>
@@ -26,6 +27,7 @@ std::string one_line(const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failed write, not a death
   try {
     const int code = meander::run_command_line(argc, argv);
     std::cout.flush();

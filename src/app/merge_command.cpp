@@ -60,7 +60,7 @@ Part read_part(const std::string& path) {
     throw Error(place, std::string("is no image that can be merged: it must be an EXR of meander render or "
                                    "merge, with the attributes meander/spp, meander/seed and ") +
                            kDigestAttribute);
-  if (sample_count(*samples) != static_cast<std::uint64_t>(*spp))
+  if (sample_count(joined(*samples)) != static_cast<std::uint64_t>(*spp))
     throw Error(place, "says that it has " + std::to_string(*spp) + " samples a pixel, and that they are " +
                            ranges_text(*samples));
   Part part{path,    linear_picture(loaded, path),     loaded.placement, {},

@@ -217,7 +217,7 @@ FinishedRun run_render(const RenderOptions& options, std::span<const std::string
   progress.finish();
   run.interrupted = stop;
   if (run.rendering.spp == 0) throw Error(Fault::runtime, without_samples(run));
-  keeper.keep_last(run.rendering);
+  run.kept = keeper.keep_last(run.rendering);
   return run;
 }
 

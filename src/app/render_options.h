@@ -58,6 +58,7 @@ struct FinishedRun {
   Budget budget;
   Rendering rendering;
   bool interrupted = false;
+  bool kept = false;  // all of it, in the checkpoint
 };
 
 /// What ends the image: 64 samples a pixel where nothing is said.

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-static_assert(std::endian::native == std::endian::little && sizeof(Pixel) == 80 &&
+static_assert(std::endian::native == std::endian::little && sizeof(Pixel) == 128 &&
               std::is_trivially_copyable_v<Pixel>);
 
 constexpr std::string_view kMagic = "meander checkpoint ";
