@@ -12,8 +12,8 @@ failures=0
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 
 # A film whose checkpoint takes about as long to write as a pass takes to render.
-scene=("$source/scenes/sphere_furnace.toml" --set camera.look_from=[0,0,25] --width 256 --height 256 --threads 2 --quiet)
-run=("${scene[@]}" --spp 64)
+scene=("$source/scenes/sphere_furnace.toml" --set camera.look_from=[0,0,25] --width 192 --height 192 --threads 2 --quiet)
+run=("${scene[@]}" --spp 48)
 milliseconds() { echo $(($(date +%s%N) / 1000000)); }
 begin=$(milliseconds)
 "$meander" render "${run[@]}" --checkpoint whole.ckpt --every 0.001 -o whole.exr || fail "the unbroken run: exit code $?"
