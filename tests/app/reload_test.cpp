@@ -59,14 +59,13 @@ TEST_CASE("a scene and a mesh that change while they are reloaded end as what wa
   int reloads = 0;
   // Without the patience of the watch as well, so that many a file is read half.
   const auto reload = [&] {
-    const std::string before = document.text();
     try {
-      document = document.reopened();
-      (void)document.scene();
+      SceneDocument fresh = document.reopened();
+      (void)fresh.scene();
+      document = std::move(fresh);
       ++reloads;
     } catch (const Error& error) {
       CHECK(std::string(error.what()).find('\n') == std::string::npos);
-      CHECK(document.text() == before);
     }
   };
   while (!written) {
