@@ -43,8 +43,8 @@ int main(int argc, char** argv) {
     return 3;
   } catch (const std::system_error& error) {
     const bool scarce = error.code() == std::errc::resource_unavailable_try_again;
-    std::cerr << "meander: " << (scarce ? "no memory, or no thread, for another thread: " : "") << error.what()
-              << '\n';
+    std::cerr << "meander: " << (scarce ? "no memory, or no thread, for another thread: " : "")
+              << error.what() << '\n';
     return 3;
   } catch (const std::exception& error) {
     std::cerr << "meander: " << error.what() << '\n';

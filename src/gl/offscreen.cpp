@@ -12,8 +12,8 @@
 namespace meander {
 namespace {
 
-// Mesa and its compiler of shaders die where they get no memory, so a limited process is asked first whether it
-// has the address space: nothing is taken.
+// Mesa and its compiler of shaders die where they get no memory, so a limited process is asked first whether
+// it has the address space: nothing is taken.
 void refuse_scarce_memory(int width, int height) {
   constexpr std::size_t kContext = std::size_t{512} << 20;
   constexpr std::size_t kPixel = 64;

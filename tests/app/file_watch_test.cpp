@@ -55,7 +55,8 @@ TEST_CASE("a watched file is reported once when it changes, and not while it is 
   CHECK(watch.changed().empty());
 }
 
-TEST_CASE("a file that is still being written is reported when it is done, and none of its last words is missed") {
+TEST_CASE(
+    "a file that is still being written is reported when it is done, and none of its last words is missed") {
   const Folder folder;
   const std::string file = (folder.path / "a.toml").string();
   write(file, "0000");

@@ -1,4 +1,5 @@
-// A scene that changes while it is reloaded: what is read is a scene or an error, and in the end the last one.
+// A scene that changes while it is reloaded: what is read is a scene or an error, and in the end the last
+// one.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -19,7 +20,8 @@ std::string scene_text(int version) {
 }
 
 std::string mesh_text(int version) {
-  return "v 0 0 0\nv " + std::to_string(1000 + version) + " 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  return "v 0 0 0\nv " + std::to_string(1000 + version) +
+         " 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 }
 
 // As an editor without care does it: the old file is cut to nothing, and the new one comes piece by piece.

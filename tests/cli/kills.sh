@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# kills.sh MEANDER SOURCE_DIR KILLS: a run that writes checkpoints is killed (SIGKILL) at that many random moments.
-# After each the last checkpoint is whole and no older than the one before it, the output is the old file or the
+# kills.sh MEANDER SOURCE_DIR KILLS: a run that writes checkpoints is killed (SIGKILL) at that many moments, random ones
+# and some in the middle of a write. After each the last checkpoint is whole and no older than the one before it, the output is the old file or the
 # whole new one, and in the end the resumed run gives the bytes of a run that was never broken off.
 set -uo pipefail
 meander=$1 source=$2 kills=$3
@@ -44,8 +44,12 @@ for ((round = 0; killed < kills && round < 20 * kills; ++round)); do
   [[ -e run.ckpt ]] && resume=(--resume run.ckpt)
   "$meander" render "${run[@]}" --checkpoint run.ckpt --every 0.001 "${resume[@]}" -o out.exr 2>said.txt &
   pid=$!
-  delay=$((RANDOM % (length + 1)))
-  sleep "$((delay / 1000)).$(printf %03d $((delay % 1000)))"
+  if ((round % 3 == 2)); then  # at the first sight of a checkpoint in the making
+    until [[ -s .run.partial-$pid.ckpt ]] || ! kill -0 $pid 2>/dev/null; do :; done
+  else
+    delay=$((RANDOM % (length + 1)))
+    sleep "$((delay / 1000)).$(printf %03d $((delay % 1000)))"
+  fi
   kill -9 $pid 2>/dev/null
   status=0
   wait $pid 2>/dev/null || status=$?
@@ -59,7 +63,7 @@ for ((round = 0; killed < kills && round < 20 * kills; ++round)); do
   fi
   [[ $status -eq 137 ]] || fail "round $round: exit code $status"
   killed=$((killed + 1))
-  compgen -G '.*.partial-*' >/dev/null && torn=$((torn + 1))
+  compgen -G ".*.partial-$pid.*" >/dev/null && torn=$((torn + 1))
   check_checkpoint
 done
 [[ $killed -eq $kills ]] || fail "only $killed of $kills kills hit a run"

@@ -146,8 +146,9 @@ TEST_CASE("a checkpoint takes the place of another, and of no other file") {
   write_checkpoint(folder.file("a"), kFields, awkward_film());
   CHECK(write_refusal(folder.file("a")).empty());
   put(folder.file("thesis"), "years of work");
-  CHECK(write_refusal(folder.file("thesis")) == "cannot write " + folder.file("thesis") +
-                                                    ": it exists and is no checkpoint of meander; use another name");
+  CHECK(write_refusal(folder.file("thesis")) ==
+        "cannot write " + folder.file("thesis") +
+            ": it exists and is no checkpoint of meander; use another name");
   CHECK(bytes_of(folder.file("thesis")) == "years of work");
 }
 

@@ -91,7 +91,8 @@ TEST_CASE("a rendering that was begun elsewhere ends as one without a break") {
   const std::atomic<bool> stop{false};
   const Rendering whole = render_spp(job, 12);
   for (const std::uint64_t begun : {1, 5, 12}) {
-    const Rendering resumed = render(job, {12, {}, {}}, stop, [](const Rendering&) {}, render_spp(job, begun));
+    const Rendering resumed = render(
+        job, {12, {}, {}}, stop, [](const Rendering&) {}, render_spp(job, begun));
     CHECK(resumed.spp == 12);
     CHECK(same_bytes(resumed.film, whole.film));
     CHECK(resumed.counters.steps == whole.counters.steps);
@@ -100,7 +101,9 @@ TEST_CASE("a rendering that was begun elsewhere ends as one without a break") {
   }
   Rendering late = render_spp(job, 4);
   late.seconds = 100;  // the time of both parts counts
-  CHECK(render(job, {{}, 50.0, {}}, stop, [](const Rendering&) {}, std::move(late)).spp == 4);
+  CHECK(render(
+            job, {{}, 50.0, {}}, stop, [](const Rendering&) {}, std::move(late))
+            .spp == 4);
 }
 
 // From the middle of the tube, half a million mean free paths from anywhere, no walk ends.
