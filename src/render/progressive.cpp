@@ -62,8 +62,7 @@ CameraRays camera_of(const Job& job) noexcept {
 }
 
 Ray film_ray(const Job& job, const CameraRays& camera, double x, double y) noexcept {
-  const FilmSize& film = job.scene->film;
-  return camera.at(x * job.scale / film.width, y * job.scale / film.height);
+  return camera.at(x * job.scale * camera.pixel_width, y * job.scale * camera.pixel_height);
 }
 
 Random sample_stream(const Job& job, int x, int y, std::uint64_t k) noexcept {
@@ -102,7 +101,9 @@ bool Passes::advance(const Rendering& before, std::uint64_t samples, Rendering& 
   const int height = area_.y1 - area_.y0;
   if (after.film.width != width || after.film.height != height) after.film = Film(width, height);
   const bool lanes = uses_lanes(job_);
-  const TilePass pass{job_, camera_, area_, path_options(job_, stop_), samples, before, after.film, lanes};
+  const EmptyPixels empty(job_, camera_);
+  const TilePass pass{job_,    camera_, empty,      area_, path_options(job_, stop_),
+                      samples, before,  after.film, lanes};
   const std::vector<Tile> tiles = make_tiles(width, height, {}, tile_size(area_, samples, lanes));
   std::vector<TileResult> results(tiles.size());
   parallel_for(

@@ -165,6 +165,11 @@ Real size_of(const DMat3& map) noexcept {
   return static_cast<Real>(std::max({glm::length(map[0]), glm::length(map[1]), glm::length(map[2])}));
 }
 
+// Of the unit box under a map whose columns are at right angles.
+double half_diagonal(const DMat3& map) noexcept {
+  return std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
+}
+
 }  // namespace
 
 Geometry::Geometry(const Scene& scene, int threads, const Geometry* previous)
@@ -176,13 +181,12 @@ Geometry::Geometry(const Scene& scene, int threads, const Geometry* previous)
 // Whether a light with an extent may lie, partly at least, inside a body: whether their bounding spheres
 // meet.
 bool Geometry::holds_light(const Body& body, const Scene& scene) noexcept {
-  const double reach = std::holds_alternative<SlabBody>(body.shape) ? kInfinity : 1.7321 * double{body.size};
   for (const Light& light : scene.lights) {
     if (const auto* sphere = std::get_if<SphereLight>(&light.shape))
-      if (glm::length(sphere->center - body.center) <= reach + sphere->radius) return true;
+      if (glm::length(sphere->center - body.center) <= body.radius + sphere->radius) return true;
     if (const auto* rectangle = std::get_if<RectangleLight>(&light.shape))
       if (glm::length(rectangle->center - body.center) <=
-          reach + 0.5 * std::hypot(rectangle->width, rectangle->height))
+          body.radius + 0.5 * std::hypot(rectangle->width, rectangle->height))
         return true;
   }
   return false;
@@ -216,15 +220,16 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, con
   const Rgb sigma_t = matched ? translucent->medium.sigma_t : Rgb(0);
   const DVec3& origin = object.transform.translate;
   if (std::holds_alternative<SphereShape>(object.shape))
-    return {SphereBody(map), origin, size_of(map), closed, matched, false, sigma_t};
+    return {SphereBody(map), origin, size_of(map), size_of(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<BoxShape>(object.shape))
-    return {BoxBody(map), origin, size_of(map), closed, matched, false, sigma_t};
+    return {BoxBody(map), origin, size_of(map), half_diagonal(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<SlabShape>(object.shape))
-    return {SlabBody(map), origin, size_of(map), closed, matched, false, sigma_t};
+    return {SlabBody(map), origin, size_of(map), kInfinity, closed, matched, false, sigma_t};
   SharedMesh mesh = make_mesh(std::get<std::shared_ptr<const Mesh>>(object.shape), map, previous);
   const Real size = largest(mesh->body.half_size());
   const DVec3 center = origin + mesh->center;
-  return {std::move(mesh), center, size, closed, matched, false, sigma_t};
+  const double radius = mesh->body.radius();
+  return {std::move(mesh), center, size, radius, closed, matched, false, sigma_t};
 }
 
 bool Geometry::is_finished() const {
@@ -283,27 +288,27 @@ bool Geometry::leaves_for_good(std::size_t object, const Ray& ray) const noexcep
          glm::dot(ray.departure.offset, ray.direction) > 0;
 }
 
-std::optional<SurfaceHit> Geometry::hit_within(std::size_t object, const Ray& ray,
-                                               double distance) const noexcept {
-  const auto hit =
-      approach(object, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
-        return first_hit(shape, seen, placement, distance);
-      });
-  if (!hit) return std::nullopt;
-  return SurfaceHit{object,      hit->distance,       hit->point,
-                    hit->normal, hit->shading_normal, glm::dot(hit->normal, ray.direction) < 0};
+// Puts the first surface of one object in the place of a farther one.
+void Geometry::hit_before(std::size_t object, const Ray& ray,
+                          std::optional<SurfaceHit>& closest) const noexcept {
+  approach(object, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
+    const auto hit = first_hit(shape, seen, placement, closest ? closest->distance : kInfinity);
+    if (!hit) return;
+    closest = SurfaceHit{object,      hit->distance,       hit->point,
+                         hit->normal, hit->shading_normal, glm::dot(hit->normal, ray.direction) < 0};
+  });
 }
 
 std::optional<SurfaceHit> Geometry::hit_object(std::size_t object, const Ray& ray) const noexcept {
-  return hit_within(object, ray, kInfinity);
+  std::optional<SurfaceHit> hit;
+  hit_before(object, ray, hit);
+  return hit;
 }
 
 std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray) const noexcept {
   std::optional<SurfaceHit> closest;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (leaves_for_good(i, ray)) continue;
-    if (const auto hit = hit_within(i, ray, closest ? closest->distance : kInfinity)) closest = hit;
-  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (!leaves_for_good(i, ray)) hit_before(i, ray, closest);
   return closest;
 }
 

@@ -36,6 +36,9 @@ class Geometry {
   /// Half the object's largest extent, about.
   [[nodiscard]] Real size(std::size_t object) const noexcept { return bodies_[object].size; }
 
+  /// Of a ball about the object's origin that holds all of it; infinite for a slab.
+  [[nodiscard]] double radius(std::size_t object) const noexcept { return bodies_[object].radius; }
+
   /// The object's own origin, in the world.
   [[nodiscard]] const DVec3& center(std::size_t object) const noexcept { return bodies_[object].center; }
 
@@ -98,6 +101,7 @@ class Geometry {
     std::variant<SphereBody, BoxBody, SlabBody, SharedMesh> shape;
     DVec3 center;
     Real size;
+    double radius;
     bool closed;   // it holds a medium: its surface has an inside
     bool matched;  // light passes it unscattered
     bool holds_light;
@@ -115,11 +119,10 @@ class Geometry {
                                      const Geometry* previous);
   [[nodiscard]] SharedMesh find_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map) const;
   [[nodiscard]] static bool holds_light(const Body& body, const Scene& scene) noexcept;
-  [[nodiscard]] std::optional<SurfaceHit> hit_within(std::size_t object, const Ray& ray,
-                                                     double distance) const noexcept;
+  void hit_before(std::size_t object, const Ray& ray, std::optional<SurfaceHit>& closest) const noexcept;
   [[nodiscard]] bool leaves_for_good(std::size_t object, const Ray& ray) const noexcept;
   template <class F>
-  [[nodiscard]] auto approach(std::size_t object, const Ray& ray, const F& f) const noexcept;
+  auto approach(std::size_t object, const Ray& ray, const F& f) const noexcept;
 
   int threads_;
   std::shared_ptr<RTCDeviceTy> device_;  // made with the first mesh that needs one

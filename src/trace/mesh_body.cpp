@@ -85,7 +85,10 @@ MeshBody::MeshBody(RTCDevice device, const Mesh& mesh, const DMat3& map, DVec3& 
   half_size_ = Vec3(0.5 * (high - low));
   scale_ = std::exp2(std::floor(std::log2(largest(half_size_))) + 1);
   inverse_scale_ = 1 / scale_;
-  for (const DVec3& p : mapped) positions_.emplace_back((p - center) * double{inverse_scale_});
+  for (const DVec3& p : mapped) {
+    positions_.emplace_back((p - center) * double{inverse_scale_});
+    radius_ = std::max(radius_, glm::length(p - center) * (1 + 0x1p-18));
+  }
   positions_.emplace_back(0);
   const DMat3 normal_map = glm::transpose(glm::inverse(map));
   std::vector<glm::vec3> normals;

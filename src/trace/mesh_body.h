@@ -91,6 +91,9 @@ class MeshBody {
   /// `radius` must hold no part of the surface.
   [[nodiscard]] Real depth_from(const Vec3& from, Real spread, const Vec3& p, Real radius) const noexcept;
 
+  /// Of a ball about the origin that holds the mesh.
+  [[nodiscard]] double radius() const noexcept { return radius_; }
+
   /// Half the size of the bounds along each axis.
   [[nodiscard]] const Vec3& half_size() const noexcept { return half_size_; }
 
@@ -126,6 +129,7 @@ class MeshBody {
   SurfaceCells cells_;
   std::unique_ptr<RTCSceneTy, SceneRelease> scene_;
   Vec3 half_size_{0};
+  double radius_ = 0;
   // Inside, lengths are divided by a power of two, exactly, so that every mesh is of a size about 1.
   Real scale_ = 1;
   Real inverse_scale_ = 1;

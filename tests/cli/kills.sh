@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # kills.sh MEANDER SOURCE_DIR KILLS: a run that writes checkpoints is killed (SIGKILL) at that many moments, random ones
-# and some in the middle of a write. After each the last checkpoint is whole and no older than the one before it, the output is the old file or the
-# whole new one, and in the end the resumed run gives the bytes of a run that was never broken off.
+# and some in the middle of a write. After each the last checkpoint is whole and no older than the one before it, the
+# output is the old file or the whole new one; in the end the resumed run gives the bytes of one without a break.
 set -uo pipefail
 meander=$1 source=$2 kills=$3
 dir=$(mktemp -d)

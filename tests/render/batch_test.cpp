@@ -54,7 +54,8 @@ Rendering oracle_of(const Job& job, std::uint64_t spp) {
   Rendering oracle;
   oracle.film = Film(area.x1 - area.x0, area.y1 - area.y0);
   const CameraRays camera = camera_of(job);
-  const TilePass pass{job, camera, area, path_options(job, stop), spp, {}, oracle.film, false};
+  const EmptyPixels empty(job, camera);
+  const TilePass pass{job, camera, empty, area, path_options(job, stop), spp, {}, oracle.film, false};
   const TileResult result = pass.render({0, 0, oracle.film.width, oracle.film.height});
   REQUIRE(result.complete);
   oracle.counters = result.counters;
