@@ -87,7 +87,11 @@ OffscreenPreview offscreen_of(const CaptureLook& look, const FilmSize& film) {
 }
 
 void refuse_what_only_films_have(const RenderOptions& options) {
-  const char* option = !options.crop.empty() ? "--crop" : !options.stats.empty() ? "--stats" : nullptr;
+  const char* option = !options.crop.empty()         ? "--crop"
+                       : !options.stats.empty()      ? "--stats"
+                       : !options.checkpoint.empty() ? "--checkpoint"
+                       : !options.resume.empty()     ? "--resume"
+                                                     : nullptr;
   if (option)
     throw Error(Fault::input, std::string(option) +
                                   " does not go with --ui, --panel or --script: those draw a whole "

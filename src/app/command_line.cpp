@@ -101,6 +101,7 @@ int run_command_line(int argc, char** argv) {
   add_compare_command(app, action);
   add_convert_command(app, action);
   add_report_command(app, action);
+  add_merge_command(app, action);
   check_verb(app, argc, argv);
   try {
     app.parse(argc, argv);

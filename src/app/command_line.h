@@ -23,6 +23,7 @@ void add_measure_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
+void add_merge_command(CLI::App& app, Action& action);
 
 /// Checks of numbers that the parser makes while it still knows the option's name.
 [[nodiscard]] CLI::Validator at_least(double low);

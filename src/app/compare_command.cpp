@@ -152,6 +152,7 @@ int run_compare(const CompareOptions& options) {
   Comparison comparison = compare_images(a, b, mask, options.limits);
   use_stored_noise(first.attributes, comparison.noise_a);
   use_stored_noise(second.attributes, comparison.noise_b);
+  warn_of_shared_samples(first.attributes, second.attributes, comparison);
   if (!options.output.empty()) write_output(a, b, mask, options);
   print(comparison, options);
   return comparison.passed() ? 0 : 1;

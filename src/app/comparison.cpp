@@ -241,6 +241,17 @@ Comparison compare_images(const Image& a, const Image& b, std::span<const std::u
   return c;
 }
 
+void warn_of_shared_samples(const ImageAttributes& a, const ImageAttributes& b, Comparison& comparison) {
+  const auto samples_a = samples_of(a);
+  const auto samples_b = samples_of(b);
+  if (!comparison.z || !samples_a || !samples_b) return;
+  const auto shared = shared_samples(*samples_a, *samples_b);
+  if (!shared) return;
+  comparison.warnings.push_back("z-test: A and B share samples " + std::to_string(shared->first) + " to " +
+                                std::to_string(shared->last) + " of seed " + std::to_string(shared->seed) +
+                                "; the test takes their noise to be independent");
+}
+
 void use_stored_noise(const ImageAttributes& attributes, std::optional<ImageNoise>& noise) {
   const auto relative = find_number(attributes, kNoiseAttribute);
   const auto pixels = find_integer(attributes, kNoisePixelsAttribute);

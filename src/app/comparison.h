@@ -71,6 +71,10 @@ struct Comparison {
 [[nodiscard]] Comparison compare_images(const Image& a, const Image& b, std::span<const std::uint8_t> mask,
                                         const CompareLimits& limits);
 
+/// With the z-test asked for, a warning when both files say that they hold the same samples: the noise of A
+/// and B is then not independent, as the test takes it to be.
+void warn_of_shared_samples(const ImageAttributes& a, const ImageAttributes& b, Comparison& comparison);
+
 /// The noise over the object's pixels as the render has stored it in its file (run_stats.h), in place of that
 /// of all pixels. Leaves the noise of a mask's pixels alone, and whatever a file says nothing of.
 void use_stored_noise(const ImageAttributes& attributes, std::optional<ImageNoise>& noise);

@@ -1,8 +1,21 @@
 #include "app/file_watch.h"
 
+#include <chrono>
 #include <system_error>
 
 namespace meander {
+namespace {
+
+// Longer than the clock that stamps files takes for a step: what is written later has a later time.
+constexpr std::chrono::milliseconds kSettled(30);
+
+// A time to come is another machine's, and tells nothing.
+bool is_settled(std::filesystem::file_time_type written) {
+  const auto age = std::filesystem::file_time_type::clock::now() - written;
+  return age < age.zero() || age >= kSettled;
+}
+
+}  // namespace
 
 bool FileWatch::stamp_of(const std::string& file, Stamp& stamp) {
   std::error_code failed;
@@ -33,7 +46,7 @@ std::vector<std::string> FileWatch::changed() {
   std::vector<std::string> files;
   for (auto& [file, seen] : seen_) {
     Stamp stamp;
-    if (!stamp_of(file, stamp) || stamp == seen) continue;
+    if (!stamp_of(file, stamp) || stamp == seen || !is_settled(stamp.time)) continue;
     seen = stamp;
     files.push_back(file);
   }

@@ -14,7 +14,9 @@ class FileWatch {
   void watch(const std::vector<std::string>& files);
 
   /// The watched files whose time or size is another than when last seen, once each. A file that is gone, as
-  /// while an editor replaces it, is not reported until it is back.
+  /// while an editor replaces it, is not reported until it is back, and one that was written within the last
+  /// 30 ms not before the next time: it may be half a file, and what is written next might leave it the same
+  /// time.
   [[nodiscard]] std::vector<std::string> changed();
 
   /// A watched file that we have written ourselves: its change is none.

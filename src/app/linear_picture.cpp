@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.h"
 #include "math/color.h"
@@ -42,6 +43,20 @@ Image linear_picture(const LoadedImage& loaded, const std::string& path) {
         picked.at(x, y)[c] = loaded.encoded ? static_cast<float>(decode_srgb(Real(value))) : value;
       }
   return picked;
+}
+
+void refuse_bad_values(const Image& image, const std::string& path, const std::string& subject) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < image.channels; ++c) {
+        const float value = image.at(x, y)[c];
+        if (std::isfinite(value) && (c < 3 || value >= 0)) continue;
+        const bool variance = std::isfinite(value);
+        throw Error(Place{path, 0, 0}, subject + "has the " + (variance ? "variance " : "value ") +
+                                           std::to_string(value) + " in pixel " + std::to_string(x) + ", " +
+                                           std::to_string(y) +
+                                           (variance ? "; none may be below 0" : "; all must be finite"));
+      }
 }
 
 }  // namespace meander

@@ -11,4 +11,8 @@ namespace meander {
 /// channel counts as grey. `path` names the file in errors. Error (input) when a channel is missing.
 [[nodiscard]] Image linear_picture(const LoadedImage& loaded, const std::string& path);
 
+/// Error (input), with the pixel, when a value is not finite or a variance below 0. `subject` stands before
+/// "has the value", "" or "the reference ".
+void refuse_bad_values(const Image& image, const std::string& path, const std::string& subject);
+
 }  // namespace meander

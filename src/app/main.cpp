@@ -1,7 +1,9 @@
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "app/command_line.h"
 #include "core/error.h"
@@ -26,6 +28,7 @@ std::string one_line(const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failed write, not a death
   try {
     const int code = meander::run_command_line(argc, argv);
     std::cout.flush();
@@ -37,6 +40,11 @@ int main(int argc, char** argv) {
     return error.exit_code();
   } catch (const std::bad_alloc&) {
     std::cerr << "meander: out of memory\n";
+    return 3;
+  } catch (const std::system_error& error) {
+    const bool scarce = error.code() == std::errc::resource_unavailable_try_again;
+    std::cerr << "meander: " << (scarce ? "no memory, or no thread, for another thread: " : "")
+              << error.what() << '\n';
     return 3;
   } catch (const std::exception& error) {
     std::cerr << "meander: " << error.what() << '\n';

@@ -6,6 +6,7 @@
 #include "app/command_line.h"
 #include "app/render_options.h"
 #include "app/run_stats.h"
+#include "core/error.h"
 #include "io/image_file.h"
 
 namespace meander {
@@ -13,13 +14,23 @@ namespace {
 
 constexpr std::array<std::string_view, 1> kExr{".exr"};
 
-int render_exr(const RenderOptions& options) {
-  const FinishedRun run = run_render(options, kExr);
+void write_film(const RenderOptions& options, const FinishedRun& run) {
   const std::array<std::string, 6> channels{"R", "G", "B", "variance.R", "variance.G", "variance.B"};
   const Tile area = area_of(run.job);
   const FilmSize& film = run.job.scene->film;
-  write_exr(options.output, resolve(run.rendering.film), channels, image_attributes(run.job, run.rendering),
-            {area.x0, area.y0, film.width, film.height});
+  try {
+    write_exr(options.output, resolve(run.rendering.film), channels, image_attributes(run.job, run.rendering),
+              {area.x0, area.y0, film.width, film.height});
+  } catch (const Error& error) {
+    if (!run.kept) throw;
+    throw Error(error.fault(), std::string(error.what()) + "; the samples are kept: --resume " +
+                                   options.checkpoint + " writes them without rendering again");
+  }
+}
+
+int render_exr(const RenderOptions& options) {
+  const FinishedRun run = run_render(options, kExr);
+  write_film(options, run);
   print_summary(options, run);
   return 0;
 }

@@ -5,13 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <sstream>
+#include <utility>
 
+#include "app/checkpoint.h"
 #include "app/command_line.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/run_stats.h"
 #include "core/error.h"
+#include "io/checkpoint_file.h"
 #include "io/output_file.h"
 #include "io/scene_file.h"
 #include "render/parallel.h"
@@ -70,6 +75,28 @@ Job make_job(const RenderOptions& options, Scene scene) {
   return job;
 }
 
+// Everything that is written must be a file of its own.
+void check_outputs(const RenderOptions& options, std::span<const std::string_view> extensions) {
+  constexpr std::string_view kJson[] = {".json"};
+  check_writable(options.output, extensions);
+  if (!options.stats.empty()) check_writable(options.stats, kJson);
+  if (options.checkpoint.empty()) return;
+  check_checkpoint_writable(options.checkpoint);
+  for (const std::string& other : {options.output, options.stats})
+    if (std::filesystem::path(other).lexically_normal() ==
+        std::filesystem::path(options.checkpoint).lexically_normal())
+      throw Error(Fault::input, "--checkpoint must name another file than " + other);
+}
+
+std::string without_samples(const FinishedRun& run) {
+  if (run.interrupted || !run.budget.seconds)
+    return "interrupted before the first pass was complete; nothing was written";
+  std::ostringstream text;
+  text << "no pass was complete within --time " << *run.budget.seconds
+       << " (seconds), not even one sample a pixel; nothing was written";
+  return text.str();
+}
+
 }  // namespace
 
 WalkCode walk_code(std::string_view name) noexcept {
@@ -120,6 +147,16 @@ void add_render_options(CLI::App& verb, RenderOptions& o) {
       ->delimiter(',')
       ->expected(4);
   verb.add_option("--stats", o.stats, "file for statistics (.json)")->check(file_name());
+  CLI::Option* checkpoint =
+      verb.add_option("--checkpoint", o.checkpoint,
+                      "file to keep the state of the run in, which --resume continues: written every --every "
+                      "seconds, at the end, and on Ctrl-C")
+          ->check(file_name());
+  verb.add_option("--every", o.every, "seconds between checkpoints (60)")
+      ->check(greater_than(0))
+      ->needs(checkpoint);
+  verb.add_option("--resume", o.resume, "checkpoint of the same run to continue, to the same total budget")
+      ->check(file_name());
   verb.add_flag("--quiet", o.quiet, "say nothing but errors");
 }
 
@@ -163,20 +200,24 @@ Job prepare_job(const RenderOptions& options) {
 }
 
 FinishedRun run_render(const RenderOptions& options, std::span<const std::string_view> extensions) {
-  constexpr std::string_view kJson[] = {".json"};
-  check_writable(options.output, extensions);
-  if (!options.stats.empty()) check_writable(options.stats, kJson);
+  check_outputs(options, extensions);
   FinishedRun run;
   run.job = prepare_job(options);
-  const std::atomic<bool>& stop = watch_interrupts();
   run.budget = budget_of(options);
+  Rendering start;
+  if (!options.resume.empty()) start = load_checkpoint(options.resume, run.job, run.budget);
+  const std::atomic<bool>& stop = watch_interrupts();
   ProgressReport progress(run.budget, options.quiet);
-  run.rendering =
-      render(run.job, run.budget, stop, [&](const Rendering& rendering) { progress.show(rendering); });
+  CheckpointKeeper keeper(run.job, options.checkpoint, options.every);
+  const auto published = [&](const Rendering& rendering) {
+    progress.show(rendering);
+    keeper.keep(rendering);
+  };
+  run.rendering = render(run.job, run.budget, stop, published, std::move(start));
   progress.finish();
   run.interrupted = stop;
-  if (run.rendering.spp == 0)
-    throw Error(Fault::runtime, "interrupted before the first pass was complete; nothing was written");
+  if (run.rendering.spp == 0) throw Error(Fault::runtime, without_samples(run));
+  run.kept = keeper.keep_last(run.rendering);
   return run;
 }
 

@@ -30,6 +30,9 @@ struct RenderOptions {
   std::string walk = "batch";
   std::string isa;  // empty: the best that the machine has
   std::string stats;
+  std::string checkpoint;
+  double every = 60;  // seconds between checkpoints
+  std::string resume;
   bool quiet = false;
 };
 
@@ -55,6 +58,7 @@ struct FinishedRun {
   Budget budget;
   Rendering rendering;
   bool interrupted = false;
+  bool kept = false;  // all of it, in the checkpoint
 };
 
 /// What ends the image: 64 samples a pixel where nothing is said.
@@ -64,9 +68,10 @@ struct FinishedRun {
 /// with the options or the scene.
 [[nodiscard]] Job prepare_job(const RenderOptions& options);
 
-/// Checks the outputs, loads the scene, renders with progress, and writes --stats. `extensions` are those
-/// that the output may have. Errors: Error(input) for anything wrong with the options or the scene;
-/// Error(runtime) when it was interrupted before the first pass was complete.
+/// Checks the outputs, loads the scene, and renders with progress, from and with checkpoints where they are
+/// asked for. `extensions` are those that the output may have. Errors: Error(input) for anything wrong with
+/// the options, the scene or the checkpoint; Error(runtime) when it was interrupted, or the time was up,
+/// before the first pass was complete.
 [[nodiscard]] FinishedRun run_render(const RenderOptions& options,
                                      std::span<const std::string_view> extensions);
 

@@ -160,7 +160,8 @@ void change_render_options(CLI::App& verb, RenderOptions& options) {
   verb.get_option("--time")->description("seconds to render for, each run");
   verb.remove_option(verb.get_option("--estimator"));
   verb.remove_option(verb.get_option("--walk"));
-  verb.remove_option(verb.get_option("--stats"));
+  for (const char* of_one_run : {"--stats", "--every", "--checkpoint", "--resume"})
+    verb.remove_option(verb.get_option(of_one_run));
 }
 
 }  // namespace

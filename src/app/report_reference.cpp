@@ -22,27 +22,10 @@ std::string size_text(int width, int height) {
 
 // Whether the file says that it holds samples of the job's own streams.
 bool shares_samples(const ImageAttributes& attributes, const Job& job, const Budget& budget) {
-  const auto seed = find_unsigned(attributes, "meander/seed");
-  const auto spp = find_integer(attributes, "meander/spp");
-  if (!seed || !spp || *seed != job.seed) return false;
-  const std::int64_t first = find_integer(attributes, "meander/first_sample").value_or(0);
-  const std::int64_t own = job.first_sample;
-  const bool ends_before = budget.spp && own + static_cast<std::int64_t>(*budget.spp) <= first;
-  return own < first + *spp && !ends_before;
-}
-
-void refuse_values(const Image& image, const std::string& path) {
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < image.channels; ++c) {
-        const float value = image.at(x, y)[c];
-        if (std::isfinite(value) && (c < 3 || value >= 0)) continue;
-        const bool variance = std::isfinite(value);
-        throw Error(Place{path, 0, 0}, std::string("the reference has the ") +
-                                           (variance ? "variance " : "value ") + std::to_string(value) +
-                                           " in pixel " + std::to_string(x) + ", " + std::to_string(y) +
-                                           (variance ? "; none may be below 0" : "; all must be finite"));
-      }
+  const auto held = samples_of(attributes);
+  if (!held) return false;
+  const std::uint64_t most = budget.spp.value_or(std::uint64_t{1} << 33);
+  return shared_samples(*held, {{job.seed, job.first_sample, job.first_sample + most - 1}}).has_value();
 }
 
 // What meander's own files say of themselves, to be said again.
@@ -73,7 +56,7 @@ ReportReference read_reference(const std::string& path, const Job& job, const Bu
                                        " that the report would draw; use another --seed");
   ReportReference reference;
   reference.image = linear_picture(loaded, path);
-  refuse_values(reference.image, path);
+  refuse_bad_values(reference.image, path, "the reference ");
   reference.attributes = own_attributes(loaded.attributes, path);
   reference.source = path;
   if (const auto spp = find_integer(loaded.attributes, "meander/spp"); spp && *spp > 0) {

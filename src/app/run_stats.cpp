@@ -8,6 +8,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/digest.h"
+#include "scene/scene_digest.h"
+
 namespace meander {
 namespace {
 
@@ -16,6 +19,8 @@ std::uint64_t peak_memory_bytes() {
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
+
+constexpr const char* kSamplesAttribute = "meander/samples";
 
 // JSON has no infinity: what is not finite is null.
 nlohmann::ordered_json finite(double value) {
@@ -65,19 +70,43 @@ std::string stats_json(const Job& job, const Rendering& rendering, const char* e
 
 ImageAttributes image_attributes(const Job& job, const Rendering& rendering) {
   ImageAttributes attributes;
-  attributes.text = {{"meander/scene", job.scene->name}, {"meander/version", version_text()}};
-  // Seeds beyond what an attribute's integer holds travel as text.
-  const bool fits = job.seed <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  if (!fits) attributes.text.emplace_back("meander/seed", std::to_string(job.seed));
-  attributes.integers = {{"meander/spp", static_cast<std::int64_t>(rendering.spp)},
-                         {"meander/first_sample", job.first_sample}};
-  if (fits) attributes.integers.emplace_back("meander/seed", static_cast<std::int64_t>(job.seed));
+  attributes.text = {{"meander/scene", job.scene->name},
+                     {kDigestAttribute, hex_text(digest_of(*job.scene))},
+                     {"meander/version", version_text()}};
+  add_samples({{job.seed, job.first_sample, job.first_sample + rendering.spp - 1}}, attributes);
   const NoiseEstimate& noise = rendering.noise;
   if (noise.pixels > 0 && std::isfinite(noise.noise)) {
     attributes.text.emplace_back(kNoiseAttribute, shortest(noise.noise));
     attributes.integers.emplace_back(kNoisePixelsAttribute, static_cast<std::int64_t>(noise.pixels));
   }
   return attributes;
+}
+
+void add_samples(const SampleRanges& samples, ImageAttributes& attributes) {
+  std::uint64_t spp = 0;
+  for (const SampleRange& range : samples) spp += range.last - range.first + 1;
+  attributes.integers.emplace_back("meander/spp", static_cast<std::int64_t>(spp));
+  if (samples.size() != 1) {
+    attributes.text.emplace_back(kSamplesAttribute, ranges_text(samples));
+    return;
+  }
+  const auto [seed, first, last] = samples.front();
+  attributes.integers.emplace_back("meander/first_sample", static_cast<std::int64_t>(first));
+  // Seeds beyond what an attribute's integer holds travel as text.
+  if (seed <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
+    attributes.integers.emplace_back("meander/seed", static_cast<std::int64_t>(seed));
+  else
+    attributes.text.emplace_back("meander/seed", std::to_string(seed));
+}
+
+std::optional<SampleRanges> samples_of(const ImageAttributes& attributes) {
+  for (const auto& [name, value] : attributes.text)
+    if (name == kSamplesAttribute) return read_ranges(value);
+  const auto seed = find_unsigned(attributes, "meander/seed");
+  const auto spp = find_unsigned(attributes, "meander/spp");
+  if (!seed || !spp || *spp == 0) return std::nullopt;
+  const std::uint64_t first = find_unsigned(attributes, "meander/first_sample").value_or(0);
+  return SampleRanges{{*seed, first, first + *spp - 1}};
 }
 
 }  // namespace meander

@@ -26,6 +26,7 @@ class Error : public std::runtime_error {
   /// Bad input at a place: the line reads `file:line:column: message`.
   Error(const Place& place, const std::string& message);
 
+  [[nodiscard]] Fault fault() const noexcept { return fault_; }
   [[nodiscard]] int exit_code() const noexcept { return static_cast<int>(fault_); }
 
  private:

@@ -1,6 +1,7 @@
 #include "gl/offscreen.h"
 
 #include <GL/osmesa.h>
+#include <sys/mman.h>
 
 #include <array>
 #include <cassert>
@@ -10,6 +11,19 @@
 
 namespace meander {
 namespace {
+
+// Mesa and its compiler of shaders die where they get no memory, so a limited process is asked first whether
+// it has the address space: nothing is taken.
+void refuse_scarce_memory(int width, int height) {
+  constexpr std::size_t kContext = std::size_t{512} << 20;
+  constexpr std::size_t kPixel = 64;
+  const std::size_t needed = kContext + kPixel * static_cast<std::size_t>(width) * height;
+  void* space = mmap(nullptr, needed, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (space == MAP_FAILED)
+    throw Error(Fault::runtime, "not enough memory for OpenGL off-screen, which may take " +
+                                    std::to_string(needed >> 20) + " MiB more");
+  munmap(space, needed);
+}
 
 void* new_context() {
   const std::array<int, 11> attributes = {OSMESA_FORMAT,
@@ -40,8 +54,10 @@ void Offscreen::Destroy::operator()(void* context) const noexcept {
   OSMesaDestroyContext(mesa);
 }
 
-Offscreen::Offscreen(int width, int height) : width_(width), height_(height), context_(new_context()) {
+Offscreen::Offscreen(int width, int height) : width_(width), height_(height) {
   assert(width > 0 && height > 0);
+  refuse_scarce_memory(width, height);
+  context_.reset(new_context());
   GLint widest = 0;
   GLint highest = 0;
   OSMesaGetIntegerv(OSMESA_MAX_WIDTH, &widest);

@@ -14,7 +14,7 @@ namespace meander {
 class Offscreen {
  public:
   /// A context whose own buffer is `width` x `height` pixels (8-bit RGBA, 24-bit depth), made current. Error
-  /// (runtime) when Mesa cannot give one.
+  /// (runtime) when Mesa cannot give one, or the process may not have the memory that Mesa needs.
   Offscreen(int width, int height);
   Offscreen(Offscreen&&) noexcept = default;
   Offscreen& operator=(Offscreen&&) = delete;  // the old buffer would go before the old context

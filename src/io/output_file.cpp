@@ -1,6 +1,8 @@
 #include "io/output_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,21 +23,47 @@ Error cannot_write(const std::string& path, const std::string& reason) {
   return Error(Fault::input, "cannot write " + path + ": " + reason);
 }
 
-std::string system_reason(int error) { return std::system_category().message(error); }
+// A name that was wrong from the start is the caller's fault; a device that is full or broken is nobody's.
+Error system_refused(const std::string& path, int error) {
+  const bool device = error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO;
+  return Error(device ? Fault::runtime : Fault::input,
+               "cannot write " + path + ": " + std::system_category().message(error));
+}
 
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// The file under its temporary name; removed when it goes away before it was renamed.
+// What temporary names of a path begin with; the process and the extension follow.
+std::string partial_prefix(const fs::path& wanted) { return "." + wanted.stem().string() + ".partial-"; }
+
+// Files that killed processes left under temporary names of this path; one whose writer lives is locked.
+void remove_abandoned(const fs::path& wanted) {
+  std::error_code failed;
+  for (fs::directory_iterator entry(folder_of(wanted), failed), end; !failed && entry != end;
+       entry.increment(failed)) {
+    const fs::path& path = entry->path();
+    if (!path.filename().string().starts_with(partial_prefix(wanted))) continue;
+    if (path.extension() != wanted.extension()) continue;
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) continue;
+    if (flock(file, LOCK_EX | LOCK_NB) == 0) unlink(path.c_str());
+    close(file);
+  }
+}
+
+// The file under its temporary name, locked; removed when it goes away before it was renamed.
 class Partial {
  public:
   explicit Partial(const std::string& path) : path_(path) {
     const fs::path wanted(path);
-    const std::string name = "." + wanted.stem().string() + ".partial-" + std::to_string(getpid());
+    const std::string name = partial_prefix(wanted) + std::to_string(getpid());
     partial_ = (folder_of(wanted) / (name + wanted.extension().string())).string();
-    file_ = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (file_ < 0) throw cannot_write(path_, system_reason(errno));
+    do {
+      if (file_ >= 0) close(file_);
+      file_ = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
+      if (file_ < 0) throw system_refused(path_, errno);
+    } while (lost_before_locked());
   }
   Partial(const Partial&) = delete;
   Partial& operator=(const Partial&) = delete;
@@ -48,7 +76,7 @@ class Partial {
     while (!bytes.empty()) {
       const ssize_t written = ::write(file_, bytes.data(), bytes.size());
       if (written < 0 && errno == EINTR) continue;
-      if (written < 0) throw cannot_write(path_, system_reason(errno));
+      if (written < 0) throw system_refused(path_, errno);
       bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
   }
@@ -56,14 +84,21 @@ class Partial {
   void commit() {
     // EINVAL and ENOTSUP: a file system that knows no flushing.
     if (fsync(file_) != 0 && errno != EINVAL && errno != ENOTSUP) {
-      throw cannot_write(path_, system_reason(errno));
+      throw system_refused(path_, errno);
     }
-    if (close(std::exchange(file_, -1)) != 0) throw cannot_write(path_, system_reason(errno));
-    if (rename(partial_.c_str(), path_.c_str()) != 0) throw cannot_write(path_, system_reason(errno));
+    if (close(std::exchange(file_, -1)) != 0) throw system_refused(path_, errno);
+    if (rename(partial_.c_str(), path_.c_str()) != 0) throw system_refused(path_, errno);
     renamed_ = true;
   }
 
  private:
+  // Whether another process took the file for abandoned between its making and its locking. A file system
+  // without locks does not lock.
+  [[nodiscard]] bool lost_before_locked() const {
+    struct stat status {};
+    return flock(file_, LOCK_EX | LOCK_NB) == 0 && fstat(file_, &status) == 0 && status.st_nlink == 0;
+  }
+
   std::string path_;
   std::string partial_;
   int file_ = -1;
@@ -84,7 +119,7 @@ void check_writable(const std::string& path, std::span<const std::string_view> e
   std::error_code ignored;
   if (fs::is_directory(wanted, ignored)) throw cannot_write(path, "it is a directory");
   const std::string extension = lower(wanted.extension().string());
-  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+  if (!extensions.empty() && std::ranges::find(extensions, extension) == extensions.end()) {
     throw cannot_write(path, (extension.empty() ? "it has no file type" : "unknown file type " + extension) +
                                  "; use " + list_names(extensions));
   }
@@ -92,14 +127,19 @@ void check_writable(const std::string& path, std::span<const std::string_view> e
   if (!fs::exists(folder, ignored)) throw cannot_write(path, "there is no folder " + folder);
   if (!fs::is_directory(folder, ignored)) throw cannot_write(path, folder + " is not a folder");
   if (fs::exists(wanted, ignored) && access(path.c_str(), W_OK) != 0) {
-    throw cannot_write(path, system_reason(errno));
+    throw system_refused(path, errno);
   }
+  remove_abandoned(wanted);
   const Partial probe(path);
 }
 
 void write_file(const std::string& path, std::span<const std::byte> bytes) {
+  write_file(path, std::span(&bytes, 1));
+}
+
+void write_file(const std::string& path, std::span<const std::span<const std::byte>> parts) {
   Partial partial(path);
-  partial.write(bytes);
+  for (const std::span<const std::byte> part : parts) partial.write(part);
   partial.commit();
 }
 

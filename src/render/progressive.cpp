@@ -1,8 +1,12 @@
 #include "render/progressive.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/timer.h"
+#include "render/deadline.h"
 #include "render/first_hits.h"
 #include "render/tile_pass.h"
 
@@ -35,6 +39,15 @@ int tile_size(const Tile& area, std::uint64_t samples, bool lanes) noexcept {
   const auto is_full = [&] { return static_cast<std::uint64_t>(size) * size * samples >= kFullLanes; };
   while (lanes && !is_full() && fits(2 * size, 32)) size *= 2;
   return size;
+}
+
+// The seconds at which a pass is broken off: what is over the limit by 1 % and has taken twice as long as it
+// was predicted to.
+double latest_end(const Progress& progress, std::uint64_t samples, double limit) noexcept {
+  const double latest = 1.01 * limit;
+  if (progress.spp == 0) return latest;
+  const double sample = progress.seconds / static_cast<double>(progress.spp);
+  return std::max(latest, progress.seconds + 2 * static_cast<double>(samples) * sample);
 }
 
 }  // namespace
@@ -107,20 +120,31 @@ bool Passes::advance(const Rendering& before, std::uint64_t samples, Rendering& 
 }
 
 Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& stop,
-                 const std::function<void(const Rendering&)>& published) {
-  const Passes passes(job, stop);
+                 const std::function<void(const Rendering&)>& published, Rendering start) {
+  std::optional<Deadline> deadline;
+  if (budget.seconds) deadline.emplace(stop);
+  const Passes passes(job, deadline ? deadline->reached() : stop);
   const std::vector<std::uint8_t> mask = first_hits(job, stop).mask;
-  const Tile area = area_of(job);
-  Rendering done;
-  done.film = Film(area.x1 - area.x0, area.y1 - area.y0);
-  Rendering next = done;
+  Rendering done = std::move(start);
+  if (done.spp == 0) {
+    const Tile area = area_of(job);
+    done.film = Film(area.x1 - area.x0, area.y1 - area.y0);
+  } else {
+    done.noise = estimate_noise(done.film, mask);
+  }
+  Rendering next;
+  next.film = done.film;
   if (!prepare_walks(job, stop)) return done;
+  const double before = done.seconds;
   const Timer timer;
   for (;;) {
     const std::uint64_t samples = next_pass(progress_of(done), budget);
-    if (samples == 0 || stop || !passes.advance(done, samples, next)) return done;
+    if (samples == 0 || stop) return done;
+    if (deadline)
+      deadline->set(latest_end(progress_of(done), samples, *budget.seconds) - before - timer.seconds());
+    if (!passes.advance(done, samples, next)) return done;
     std::swap(done, next);
-    done.seconds = timer.seconds();
+    done.seconds = before + timer.seconds();
     done.noise = estimate_noise(done.film, mask);
     published(done);
   }

@@ -83,9 +83,13 @@ class Passes {
 };
 
 /// Renders until the budget is met or `stop` becomes true. `published` is called after every pass, on the
-/// calling thread. A pass that was interrupted is discarded.
+/// calling thread. A pass that was interrupted is discarded. `start` is an earlier rendering of the same job,
+/// its samples and seconds already part of the budget; what is returned has the same film as one run without
+/// a break. Time, where it is limited, ends a pass as well: the first one 1 % past the limit (no samples are
+/// returned then), a later one when it has taken twice as long as it was predicted to and the limit is 1 %
+/// past.
 [[nodiscard]] Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& stop,
-                               const std::function<void(const Rendering&)>& published);
+                               const std::function<void(const Rendering&)>& published, Rendering start = {});
 
 /// Whether the job walks in lanes wherever the scene allows it.
 [[nodiscard]] bool uses_lanes(const Job& job) noexcept;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/digest.h"
 #include "core/error.h"
 #include "math/color.h"
 
@@ -156,5 +157,15 @@ EnvironmentImage::Sample EnvironmentImage::sample(const Vec2& u) const noexcept 
 }
 
 Real EnvironmentImage::pdf(const Vec3& direction) const noexcept { return pdf_of(texel_of(direction)); }
+
+std::uint64_t EnvironmentImage::digest() const noexcept {
+  Digest digest;
+  digest.add(picture_->width);
+  digest.add(picture_->height);
+  digest.add(std::as_bytes(std::span(picture_->texels)));
+  digest.add(turn_);
+  digest.add(scale_);
+  return digest.value();
+}
 
 }  // namespace meander

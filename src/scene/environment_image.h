@@ -2,6 +2,7 @@
 // what it shines.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -40,6 +41,9 @@ class EnvironmentImage {
   /// Density per steradian with which `sample` draws a unit direction: luminance over the sphere's integral
   /// of it.
   [[nodiscard]] Real pdf(const Vec3& direction) const noexcept;
+
+  /// Of all that decides the radiance (core/digest.h).
+  [[nodiscard]] std::uint64_t digest() const noexcept;
 
  private:
   // What the file holds, unscaled.

@@ -14,7 +14,10 @@ namespace meander {
 namespace {
 
 void check_device(RTCDevice device, const char* doing) {
-  if (const RTCError code = rtcGetDeviceError(device); code != RTC_ERROR_NONE)
+  const RTCError code = rtcGetDeviceError(device);
+  if (code == RTC_ERROR_OUT_OF_MEMORY)
+    throw Error(Fault::runtime, std::string("out of memory: Embree has not enough of it for ") + doing);
+  if (code != RTC_ERROR_NONE)
     throw Error(Fault::runtime, std::string("Embree failed with code ") + std::to_string(code) + " " + doing);
 }
 

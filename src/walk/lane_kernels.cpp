@@ -161,7 +161,7 @@ class Kernel {
   HWY_INLINE void run(int count, int enough) {
     const int width = static_cast<int>(hn::Lanes(F()));
     const auto rest = static_cast<std::uint32_t>(LaneState::running);
-    for (;;) {
+    for (std::uint64_t step_of_all = 0; step_of_all < kStopInterval; ++step_of_all) {
       int running = 0;
       for (int at = 0; at < count; at += width) {
         const VU state = hn::Load(U(), lanes_.state + at);

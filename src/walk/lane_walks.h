@@ -40,8 +40,8 @@ class LaneWalks {
   LaneWalks(InstructionSet set, const W& world, const LaneModel& model, C& client) noexcept
       : set_(set), world_(world), model_(model), client_(client) {}
 
-  /// Runs until the client has no walk left; false when it said stop, which is asked about once a step of
-  /// every lane.
+  /// Runs until the client has no walk left; false when it said stop, which is asked whenever rays are
+  /// traced, and every kStopInterval steps at least.
   [[nodiscard]] bool run() noexcept {
     for (int lane = 0; lane < kLanes; ++lane) {
       lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);

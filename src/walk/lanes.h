@@ -89,8 +89,8 @@ enum class InstructionSet { baseline, sse4, avx2, avx512 };
 [[nodiscard]] std::span<const InstructionSet> instruction_sets() noexcept;
 
 /// Advances the running lanes among the first `count` (a multiple of 16) until at least `enough` of all rest,
-/// or none runs. The instruction set must be one that the machine has. One set gives the same numbers
-/// wherever it runs.
+/// none runs, or each that still runs has made kStopInterval steps. The instruction set must be one that the
+/// machine has. One set gives the same numbers wherever it runs.
 void advance_lanes(InstructionSet set, const LaneModel& model, Lanes& lanes, int count, int enough) noexcept;
 
 }  // namespace meander

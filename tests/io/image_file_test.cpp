@@ -2,6 +2,8 @@
 #include "io/image_file.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -41,17 +43,19 @@ struct Folder {
   }
 };
 
-std::string input_error(const std::function<void()>& action) {
+std::string error_of(Fault fault, const std::function<void()>& action) {
   try {
     action();
   } catch (const Error& error) {
-    CHECK(error.exit_code() == 2);
+    CHECK(error.fault() == fault);
     const std::string message = error.what();
     CHECK(message.find('\n') == std::string::npos);
     return message;
   }
   return "";
 }
+
+std::string input_error(const std::function<void()>& action) { return error_of(Fault::input, action); }
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -230,8 +234,9 @@ TEST_CASE("a file that cannot be written leaves neither itself nor a partial, an
   put(folder.file("a.exr"), "before");
   {
     const FullDisk full(100);
-    CHECK(contains(input_error([&] { write_exr(folder.file("a.exr"), image, kRgb, {}); }), "File too large"));
-    CHECK(contains(input_error([&] { write_exr(folder.file("b.exr"), image, kRgb, {}); }), "File too large"));
+    for (const std::string name : {"a.exr", "b.exr"})
+      CHECK(contains(error_of(Fault::runtime, [&] { write_exr(folder.file(name), image, kRgb, {}); }),
+                     "cannot write " + folder.file(name) + ": File too large"));
   }
   CHECK(bytes_of(folder.file("a.exr")) == "before");
   CHECK(folder.entries() == 1);
@@ -267,6 +272,25 @@ TEST_CASE("an output is refused before the work by its type, folder or kind, and
     CHECK(contains(input_error([&] { check_writable(folder.file("dir.exr/a.exr"), kTypes); }), "Permission"));
     fs::permissions(folder.path / "dir.exr", fs::perms::owner_all);
   }
+}
+
+TEST_CASE("what a killed process left of an output goes before the next, what a living one writes stays") {
+  const Folder folder;
+  constexpr std::string_view kExr[] = {".exr"};
+  put(folder.file(".a.partial-1.exr"), "left by a killed process");
+  put(folder.file(".a.partial-2.exr"), "in the making");
+  put(folder.file(".b.partial-1.exr"), "of another output");
+  put(folder.file(".a.partial-1.json"), "of another output");
+  fs::create_directory(folder.path / ".a.partial-3.exr");
+  const int making = open(folder.file(".a.partial-2.exr").c_str(), O_RDONLY | O_CLOEXEC);
+  REQUIRE(flock(making, LOCK_EX) == 0);
+  check_writable(folder.file("a.exr"), kExr);
+  CHECK_FALSE(fs::exists(folder.path / ".a.partial-1.exr"));
+  CHECK(bytes_of(folder.file(".a.partial-2.exr")) == "in the making");
+  CHECK(folder.entries() == 4);
+  close(making);
+  check_writable(folder.file("a.exr"), kExr);
+  CHECK(folder.entries() == 3);
 }
 
 TEST_CASE("a truncated image is an error wherever it ends") {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/timer.h"
 #include "render/first_hits.h"
 #include "render/small_scene.h"
 #include "stats/moments.h"
@@ -83,6 +84,65 @@ TEST_CASE("an interrupted pass is discarded whole") {
   CHECK(same_bytes(stopped.film, render_spp(job, 4).film));
   stop = true;
   CHECK(render(job, {}, stop, [](const Rendering&) {}).spp == 0);
+}
+
+TEST_CASE("a rendering that was begun elsewhere ends as one without a break") {
+  const Job job = make_job(mixed_scene(), 2);
+  const std::atomic<bool> stop{false};
+  const Rendering whole = render_spp(job, 12);
+  for (const std::uint64_t begun : {1, 5, 12}) {
+    const Rendering resumed = render(
+        job, {12, {}, {}}, stop, [](const Rendering&) {}, render_spp(job, begun));
+    CHECK(resumed.spp == 12);
+    CHECK(same_bytes(resumed.film, whole.film));
+    CHECK(resumed.counters.steps == whole.counters.steps);
+    CHECK(resumed.counters.walks == whole.counters.walks);
+    CHECK(resumed.noise.noise == whole.noise.noise);
+  }
+  Rendering late = render_spp(job, 4);
+  late.seconds = 100;  // the time of both parts counts
+  CHECK(render(
+            job, {{}, 50.0, {}}, stop, [](const Rendering&) {}, std::move(late))
+            .spp == 4);
+}
+
+// From the middle of the tube, half a million mean free paths from anywhere, no walk ends.
+TEST_CASE("time ends a pass whose walks do not end, in lanes and without, and leaves no sample of it") {
+  Scene scene = mixed_scene();
+  scene.materials[0] = translucent("dense", {Rgb(1000000), Rgb(1), 0}, Boundary::matched);
+  scene.camera.look_from = DVec3(-1, 0, 0) + DVec3(3.0 / 3.62, 0, 0);
+  Job job = make_job(std::move(scene), 2);
+  const std::atomic<bool> stop{false};
+  for (const WalkCode walk : {WalkCode::scalar, WalkCode::batch}) {
+    job.walk = walk;
+    REQUIRE(prepare_walks(job, stop));
+    const Timer timer;
+    const Rendering rendering = render(job, {{}, 0.2, {}}, stop, [](const Rendering&) { FAIL("a pass"); });
+    CHECK(timer.seconds() >= 0.2);
+    CHECK(timer.seconds() < 3);
+    CHECK(rendering.spp == 0);
+    CHECK(same_bytes(rendering.film, Film(40, 24)));
+  }
+}
+
+TEST_CASE("time is kept: no pass begins after it, and the last one fits") {
+  const Job job = make_job(mixed_scene(), 2);
+  const std::atomic<bool> stop{false};
+  constexpr double kLimit = 0.6;
+  std::vector<double> ends{0};
+  std::vector<std::uint64_t> samples{0};
+  const Rendering rendering = render(job, {{}, kLimit, {}}, stop, [&](const Rendering& r) {
+    ends.push_back(r.seconds);
+    samples.push_back(r.spp);
+  });
+  REQUIRE(ends.size() > 2);
+  CHECK(rendering.spp == samples.back());
+  const std::size_t last = ends.size() - 1;
+  CHECK(ends[last - 1] < kLimit);
+  const double sample = ends[last - 1] / static_cast<double>(samples[last - 1]);
+  const double predicted = sample * static_cast<double>(samples[last] - samples[last - 1]);
+  CHECK(ends[last - 1] + predicted <= kLimit + sample);
+  CHECK(ends[last] <= std::max(1.01 * kLimit, ends[last - 1] + 2 * predicted) + 0.1);
 }
 
 TEST_CASE("a walk without end is stopped in the middle") {
