@@ -72,7 +72,7 @@ CLI::Validator finite_number() {
 CLI::Validator file_name() {
   return CLI::Validator(
       [](const std::string& text) -> std::string {
-        return text.empty() ? "is '', but must be the name of a file" : std::string();
+        return text.empty() ? "is '', but must be the name of a file or folder" : std::string();
       },
       "");
 }

@@ -4,6 +4,29 @@
 #include <cassert>
 
 namespace meander {
+namespace {
+
+// Variance of the mean of a channel over three strata that take turns, the first to have one more drawn at
+// random (Cochran 1977, "Sampling Techniques", section 5): what the samples scatter within them, and what the
+// strata of an unfinished last round differ by.
+double stratified_variance(const Pixel& pixel, std::size_t c) noexcept {
+  const double n = static_cast<double>(pixel.count);
+  double between = 0;  // sum of squares over the samples
+  double middle = 0;
+  for (const Stratum& stratum : pixel.strata) {
+    const double d = double{stratum.mean[c]} - pixel.mean[c];
+    between += stratum.count * d * d;
+    middle += double{stratum.mean[c]} / 3;
+  }
+  double apart = 0;  // variance of the strata's means
+  for (const Stratum& stratum : pixel.strata)
+    apart += (stratum.mean[c] - middle) * (stratum.mean[c] - middle) / 2;
+  const double within = std::max(pixel.m2[c] - between, 0.0) / (n - 3);
+  const double left = static_cast<double>(pixel.count % 3);
+  return (n * within + left * (1 - left / 3) * apart) / (n * n);
+}
+
+}  // namespace
 
 void Pixel::add(const Rgb& value) noexcept {
   ++count;
@@ -16,9 +39,21 @@ void Pixel::add(const Rgb& value) noexcept {
   }
 }
 
+void Pixel::add(const Rgb& value, int stratum) noexcept {
+  add(value);
+  Stratum& own = strata[static_cast<std::size_t>(stratum)];
+  ++own.count;
+  for (int c = 0; c < 3; ++c)
+    own.mean[static_cast<std::size_t>(c)] +=
+        (static_cast<float>(value[c]) - own.mean[static_cast<std::size_t>(c)]) /
+        static_cast<float>(own.count);
+}
+
 std::array<double, 3> Pixel::variance_of_mean() const noexcept {
   if (count < 2) return {};
   const double n = static_cast<double>(count);
+  if (strata[0].count > 0 && count >= kFewestStratified)
+    return {stratified_variance(*this, 0), stratified_variance(*this, 1), stratified_variance(*this, 2)};
   return {m2[0] / (n - 1) / n, m2[1] / (n - 1) / n, m2[2] / (n - 1) / n};
 }
 

@@ -26,16 +26,28 @@ struct PathSums {
   }
 };
 
+/// The samples of one stratum of a pixel's: how many, and their mean.
+struct Stratum {
+  std::array<float, 3> mean{};
+  std::uint32_t count = 0;
+};
+
+/// From that many samples on the variance of a stratified mean is known as such.
+inline constexpr std::uint64_t kFewestStratified = 16;
+
 /// Welford's (1962) running mean and sum of squared deviations of the samples of one pixel, per channel; and
-/// what paths its light took.
+/// what paths its light took. Samples are independent, or independent within three strata that take turns.
 struct Pixel {
   std::array<double, 3> mean{};
   std::array<double, 3> m2{};
   std::uint64_t count = 0;
   PathSums paths;
+  std::array<Stratum, 3> strata;  // empty where samples are independent
 
   void add(const Rgb& value) noexcept;
-  /// Variance of the mean, per channel; 0 below two samples.
+  void add(const Rgb& value, int stratum) noexcept;
+  /// Variance of the mean, per channel; 0 below two samples. Of a stratified one below kFewestStratified
+  /// samples that of independent ones, which is larger.
   [[nodiscard]] std::array<double, 3> variance_of_mean() const noexcept;
 };
 

@@ -80,7 +80,7 @@ Measurement measure_block(const MeasureJob& job, const Shape<W>& shape, BlockWal
   result.resolved = ResolvedBins(job.bins);
   MeasuredWalk walk(job, shape.top, result, stop);
   if (in_lanes(job)) {
-    const LaneModel model{measured_medium(job), shape.region, false, true};
+    const LaneModel model{measured_medium(job), shape.region, false};
     BlockLanes lanes{block, stop, std::vector<MeasuredWalk>(kLanes, walk)};
     (void)LaneWalks(job.instruction_set, shape.world, model, lanes).run();
     return result;

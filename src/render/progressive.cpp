@@ -12,6 +12,11 @@ namespace {
 // How many pixels of the job `count` pixels of the film touch.
 int scaled(int count, int scale) noexcept { return (count + scale - 1) / scale; }
 
+std::uint32_t pixel_index(const Job& job, int x, int y) noexcept {
+  const int stride = scaled(job.scene->film.width, job.scale);
+  return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(stride) + static_cast<std::uint32_t>(x);
+}
+
 bool is_chromatic(const Scene& scene) {
   for (const Material& material : scene.materials)
     if (const auto* translucent = std::get_if<TranslucentMaterial>(&material.kind))
@@ -49,14 +54,16 @@ Ray film_ray(const Job& job, const CameraRays& camera, double x, double y) noexc
 }
 
 Random sample_stream(const Job& job, int x, int y, std::uint64_t k) noexcept {
-  const int stride = scaled(job.scene->film.width, job.scale);
-  const auto index =
-      static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(stride) + static_cast<std::uint32_t>(x);
-  return stream(job.seed, index, job.first_sample + static_cast<std::uint32_t>(k));
+  return stream(job.seed, pixel_index(job, x, y), job.first_sample + static_cast<std::uint32_t>(k));
+}
+
+int sample_hero(const Job& job, int x, int y, std::uint64_t k) noexcept {
+  const auto first = static_cast<std::uint64_t>(stream(~job.seed, pixel_index(job, x, y), 0).next() * 3);
+  return static_cast<int>((first + job.first_sample + k) % 3);
 }
 
 PathOptions path_options(const Job& job, const std::atomic<bool>& stop) {
-  return {job.estimator, is_chromatic(*job.scene), &stop};
+  return {job.estimator, is_chromatic(*job.scene), uses_lanes(job), &stop};
 }
 
 std::uint64_t film_bytes(const Job& job) {
@@ -82,7 +89,9 @@ bool Passes::advance(const Rendering& before, std::uint64_t samples, Rendering& 
   const int height = area_.y1 - area_.y0;
   if (after.film.width != width || after.film.height != height) after.film = Film(width, height);
   const bool lanes = uses_lanes(job_);
-  const TilePass pass{job_, camera_, area_, path_options(job_, stop_), samples, before, after.film, lanes};
+  const EmptyPixels empty(job_, camera_);
+  const TilePass pass{job_,    camera_, empty,      area_, path_options(job_, stop_),
+                      samples, before,  after.film, lanes};
   const std::vector<Tile> tiles = make_tiles(width, height, {}, tile_size(area_, samples, lanes));
   std::vector<TileResult> results(tiles.size());
   parallel_for(

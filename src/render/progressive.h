@@ -55,8 +55,10 @@ struct Rendering {
 [[nodiscard]] CameraRays camera_of(const Job& job) noexcept;
 [[nodiscard]] Ray film_ray(const Job& job, const CameraRays& camera, double x, double y) noexcept;
 
-/// The stream of sample k of a pixel of the job, and what its paths are traced with.
+/// The stream of sample k of a pixel of the job, its hero channel (they take turns, from a random one on),
+/// and what its paths are traced with, once its walks are prepared.
 [[nodiscard]] Random sample_stream(const Job& job, int x, int y, std::uint64_t k) noexcept;
+[[nodiscard]] int sample_hero(const Job& job, int x, int y, std::uint64_t k) noexcept;
 [[nodiscard]] PathOptions path_options(const Job& job, const std::atomic<bool>& stop);
 
 /// Bytes that the films of a job take.

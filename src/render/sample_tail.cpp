@@ -33,7 +33,8 @@ struct TailRows {
         const double u = random.next();
         const double v = random.next();
         RadianceSink sink;
-        if (!tracer.trace(film_ray(job, camera, image_x + u, image_y + v), random, sink)) return false;
+        const int hero = sample_hero(job, image_x, image_y, k);
+        if (!tracer.trace(film_ray(job, camera, image_x + u, image_y + v), random, sink, hero)) return false;
         const double value = luminance(sink.radiance);
         found.add(std::isfinite(value) ? value * scale : 0);
       }
@@ -53,6 +54,7 @@ std::optional<LogHistogram> sample_tail(const Job& job, const Image& reference,
   const TailRows rows{job, reference,      every ? std::span<const std::uint8_t>{} : mask,
                       spp, camera_of(job), area};
   const std::size_t bands = std::min(kBands, static_cast<std::size_t>(reference.height));
+  if (!prepare_walks(job, stop)) return std::nullopt;
   std::vector<LogHistogram> found(bands);
   std::vector<std::uint8_t> complete(bands);
   parallel_for(

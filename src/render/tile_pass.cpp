@@ -23,34 +23,60 @@ struct SampleSink {
   }
 };
 
-void add_sample(const SampleSink& sink, Pixel& pixel, TileResult& result) noexcept {
+// A sample of a pixel: where it is in the image, and which of the job's it is.
+struct SamplePlace {
+  int x;
+  int y;
+  std::uint64_t k;
+};
+
+PathStart start_of(const TilePass& pass, const SamplePlace& at) noexcept {
+  PathStart start;
+  start.random = sample_stream(pass.job, at.x, at.y, at.k);
+  const double u = start.random.next();
+  const double v = start.random.next();
+  start.ray = film_ray(pass.job, pass.camera, at.x + u, at.y + v);
+  if (pass.options.chromatic) start.hero = sample_hero(pass.job, at.x, at.y, at.k);
+  return start;
+}
+
+void add_sample(const TilePass& pass, const SamplePlace& at, const SampleSink& sink, Pixel& pixel,
+                TileResult& result) noexcept {
   const bool finite = std::isfinite(sink.radiance.x + sink.radiance.y + sink.radiance.z);
-  pixel.add(finite ? sink.radiance : Rgb(0));
+  const Rgb value = finite ? sink.radiance : Rgb(0);
+  if (pass.options.chromatic)
+    pixel.add(value, sample_hero(pass.job, at.x, at.y, at.k));
+  else
+    pixel.add(value);
   if (finite)
     pixel.paths += sink.paths;
   else
     ++result.non_finite;
 }
 
-// Some samples of every pixel of a tile, which a batch ends in any order.
+// Where a pixel of the film is in it.
+struct FilmPlace {
+  int x;
+  int y;
+};
+
+// Some samples of some pixels, which a batch ends in any order.
 struct TileSamples {
   const TilePass& pass;
-  const Tile& tile;
+  const std::vector<FilmPlace>& pixels;
   std::uint64_t first;  // of each pixel's samples in the job
   std::size_t count;    // of them
   std::vector<SampleSink> found;
   std::size_t drawn = 0;
 
-  [[nodiscard]] bool next(std::size_t& sample, Ray& ray, Random& random) noexcept {
+  [[nodiscard]] SamplePlace place(std::size_t sample) const noexcept {
+    const FilmPlace& at = pixels[sample / count];
+    return {pass.area.x0 + at.x, pass.area.y0 + at.y, first + sample % count};
+  }
+  [[nodiscard]] bool next(PathStart& start) noexcept {
     if (drawn == found.size()) return false;
-    sample = drawn++;
-    const auto pixel = static_cast<int>(sample / count);
-    const int x = pass.area.x0 + tile.x0 + pixel % (tile.x1 - tile.x0);
-    const int y = pass.area.y0 + tile.y0 + pixel / (tile.x1 - tile.x0);
-    random = sample_stream(pass.job, x, y, first + sample % count);
-    const double u = random.next();
-    const double v = random.next();
-    ray = film_ray(pass.job, pass.camera, x + u, y + v);
+    start = start_of(pass, place(drawn));
+    start.sample = drawn++;
     return true;
   }
   void done(std::size_t sample, const SampleSink& sink) noexcept { found[sample] = sink; }
@@ -60,46 +86,61 @@ Pixel pixel_before(const TilePass& pass, int x, int y) noexcept {
   return pass.before.spp > 0 ? pass.before.film.at(x, y) : Pixel{};
 }
 
-bool render_scalar(const TilePass& pass, const Tile& tile, PathTracer<Geometry>& tracer, TileResult& result) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      if (tracer.stop()) return false;
-      Pixel pixel = pixel_before(pass, x, y);
-      for (std::uint64_t k = 0; k < pass.samples; ++k) {
-        const int image_x = pass.area.x0 + x;
-        const int image_y = pass.area.y0 + y;
-        Random random = sample_stream(pass.job, image_x, image_y, pass.before.spp + k);
-        const double u = random.next();
-        const double v = random.next();
-        SampleSink sink;
-        if (!tracer.trace(film_ray(pass.job, pass.camera, image_x + u, image_y + v), random, sink))
-          return false;
-        add_sample(sink, pixel, result);
-      }
-      pass.after.at(x, y) = pixel;
+// Whether camera rays that meet no surface all find the same.
+bool uniform_behind(const Scene& scene) noexcept {
+  return !scene.environment.image && std::ranges::none_of(scene.lights, &Light::visible);
+}
+
+// The samples of a pixel in which no ray meets a surface.
+Pixel render_empty(const TilePass& pass, const FilmPlace& at, const PathTracer<Geometry>& tracer,
+                   TileResult& result) {
+  const bool uniform = uniform_behind(*pass.job.scene);
+  Pixel pixel = pixel_before(pass, at.x, at.y);
+  SampleSink sink;
+  for (std::uint64_t k = 0; k < pass.samples; ++k) {
+    const SamplePlace place{pass.area.x0 + at.x, pass.area.y0 + at.y, pass.before.spp + k};
+    if (k == 0 || !uniform) {
+      sink = {};
+      tracer.escape(start_of(pass, place).ray, sink);
     }
+    add_sample(pass, place, sink, pixel, result);
   }
+  return pixel;
+}
+
+bool render_scalar(const TilePass& pass, const FilmPlace& at, PathTracer<Geometry>& tracer,
+                   TileResult& result) {
+  Pixel pixel = pixel_before(pass, at.x, at.y);
+  for (std::uint64_t k = 0; k < pass.samples; ++k) {
+    const SamplePlace place{pass.area.x0 + at.x, pass.area.y0 + at.y, pass.before.spp + k};
+    PathStart start = start_of(pass, place);
+    SampleSink sink;
+    if (!tracer.trace(start.ray, start.random, sink, start.hero)) return false;
+    add_sample(pass, place, sink, pixel, result);
+  }
+  pass.after.at(at.x, at.y) = pixel;
   return true;
 }
 
 // Samples a tile has in hand at one time: what they find is kept until all have ended.
 constexpr std::uint64_t kSamplesInHand = 65536;
 
-bool render_lanes(const TilePass& pass, const Tile& tile, PathTracer<Geometry>& tracer, TileResult& result) {
-  const int width = tile.x1 - tile.x0;
-  const auto pixels = static_cast<std::size_t>(width) * (tile.y1 - tile.y0);
-  const std::uint64_t most = std::max<std::uint64_t>(kSamplesInHand / pixels, 1);
+bool render_lanes(const TilePass& pass, const std::vector<FilmPlace>& pixels, PathTracer<Geometry>& tracer,
+                  TileResult& result) {
+  if (pixels.empty()) return true;
+  const std::uint64_t most = std::max<std::uint64_t>(kSamplesInHand / pixels.size(), 1);
   for (std::uint64_t done = 0; done < pass.samples;) {
     const std::uint64_t count = std::min(pass.samples - done, most);
-    TileSamples samples{pass, tile, pass.before.spp + done, count, std::vector<SampleSink>(pixels * count)};
+    TileSamples samples{pass, pixels, pass.before.spp + done, count,
+                        std::vector<SampleSink>(pixels.size() * count)};
     PathBatch<Geometry, SampleSink, TileSamples> batch(*pass.job.scene, *pass.job.geometry, tracer, samples);
     if (!batch.run(pass.job.instruction_set)) return false;
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const int x = tile.x0 + static_cast<int>(i) % width;
-      const int y = tile.y0 + static_cast<int>(i) / width;
-      Pixel pixel = done > 0 ? pass.after.at(x, y) : pixel_before(pass, x, y);
-      for (std::size_t k = 0; k < count; ++k) add_sample(samples.found[i * count + k], pixel, result);
-      pass.after.at(x, y) = pixel;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const FilmPlace& at = pixels[i];
+      Pixel pixel = done > 0 ? pass.after.at(at.x, at.y) : pixel_before(pass, at.x, at.y);
+      for (std::size_t sample = i * count; sample < (i + 1) * count; ++sample)
+        add_sample(pass, samples.place(sample), samples.found[sample], pixel, result);
+      pass.after.at(at.x, at.y) = pixel;
     }
     done += count;
   }
@@ -111,8 +152,20 @@ bool render_lanes(const TilePass& pass, const Tile& tile, PathTracer<Geometry>& 
 TileResult TilePass::render(const Tile& tile) const {
   TileResult result;
   PathTracer<Geometry> tracer(*job.scene, *job.geometry, options);
-  result.complete =
-      lanes ? render_lanes(*this, tile, tracer, result) : render_scalar(*this, tile, tracer, result);
+  std::vector<FilmPlace> pixels;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      if (tracer.stop()) return result;
+      if (empty.contains(area.x0 + x, area.y0 + y))
+        after.at(x, y) = render_empty(*this, {x, y}, tracer, result);
+      else
+        pixels.push_back({x, y});
+    }
+  }
+  result.complete = lanes ? render_lanes(*this, pixels, tracer, result)
+                          : std::ranges::all_of(pixels, [&](const FilmPlace& at) {
+                              return !tracer.stop() && render_scalar(*this, at, tracer, result);
+                            });
   result.counters = tracer.counters();
   return result;
 }

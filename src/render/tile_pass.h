@@ -2,7 +2,7 @@
 // order.
 #pragma once
 
-#include "render/progressive.h"
+#include "render/empty_pixels.h"
 
 namespace meander {
 
@@ -17,6 +17,7 @@ struct TileResult {
 struct TilePass {
   const Job& job;
   const CameraRays& camera;
+  const EmptyPixels& empty;
   Tile area;
   PathOptions options;
   std::uint64_t samples;

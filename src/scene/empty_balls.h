@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -10,11 +12,22 @@
 
 namespace meander {
 
-/// Centre and squared radius; negative where there is no ball.
+/// Centre and squared radius; negative where there is no ball. The radius' last two bits tell what else the
+/// ball promises, see EmptyBalls.
 struct EmptyBall {
+  enum Promise : std::uint32_t { plain, facing, followed };
+
   glm::vec3 center{0};
   float radius2 = -1;
 
+  EmptyBall() = default;
+  /// Of a radius of `radius` (> 0), or less by at most four units in the last place.
+  EmptyBall(const glm::vec3& middle, float radius, Promise promise) noexcept : center(middle) {
+    radius2 = std::bit_cast<float>(((std::bit_cast<std::uint32_t>(radius * radius) - 4) & ~3u) | promise);
+  }
+  [[nodiscard]] Promise promise() const noexcept {
+    return radius2 > 0 ? static_cast<Promise>(std::bit_cast<std::uint32_t>(radius2) & 3) : plain;
+  }
   [[nodiscard]] bool holds(const glm::vec3& p) const noexcept {
     const glm::vec3 d = p - center;
     return glm::dot(d, d) <= radius2;
@@ -22,7 +35,10 @@ struct EmptyBall {
 };
 
 /// `cells` holds the number of each cell's ball, x fastest. Points outside the grid have the nearest cell's
-/// ball, which is as good as any: a ball promises something about what is in it, wherever it is found.
+/// ball, which is as good as any: a ball promises something about what is in it, wherever it is found. A
+/// facing ball promises more: that no step into it from a point of its cell (which is inside of the body)
+/// leaves the body, whether the ball holds that point or not. A followed one has the cell's facing ball, a
+/// smaller one, behind it in the list.
 struct EmptyBalls {
   glm::vec3 low{0};
   float cells_per_unit = 1;
@@ -30,10 +46,43 @@ struct EmptyBalls {
   std::vector<std::uint32_t> cells{0};
   std::vector<EmptyBall> balls{EmptyBall{}};
 
-  [[nodiscard]] const EmptyBall& at(const glm::vec3& p) const noexcept {
+  /// The place of a point's cell in `cells`.
+  [[nodiscard]] std::size_t cell_at(const glm::vec3& p) const noexcept {
     const glm::vec3 place = (p - low) * cells_per_unit;
     const glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(place)), glm::ivec3(0), size - 1);
-    return balls[cells[static_cast<std::size_t>((cell.z * size.y + cell.y) * size.x + cell.x)]];
+    return static_cast<std::size_t>((cell.z * size.y + cell.y) * size.x + cell.x);
+  }
+  [[nodiscard]] const EmptyBall& at(const glm::vec3& p) const noexcept { return balls[cells[cell_at(p)]]; }
+
+  /// A ball into which no step from a point inside of the body leaves it; none (a negative squared radius)
+  /// where none is known.
+  [[nodiscard]] EmptyBall from(const glm::vec3& p) const noexcept {
+    const EmptyBall& ball = at(p);
+    if (ball.promise() == EmptyBall::facing || ball.holds(p)) return ball;
+    return ball.promise() == EmptyBall::followed ? *(&ball + 1) : EmptyBall{};
+  }
+
+  /// How far along a step from a point inside of the body balls tell that nothing is crossed, the first of
+  /// them one into which no step from there leaves the body; at most `distance`, and no promise where it is
+  /// less.
+  [[nodiscard]] float clear_length(EmptyBall ball, const glm::vec3& p, const glm::vec3& d,
+                                   float distance) const noexcept {
+    constexpr int kBalls = 4;
+    constexpr float kWithin = 1 - 0x1p-10f;  // of the way to a ball's far side
+    float clear = 0;
+    for (int i = 0; i < kBalls; ++i) {
+      const glm::vec3 place = p + clear * d;
+      if (i > 0) ball = at(place);
+      const glm::vec3 to = place - ball.center;
+      const float along = -glm::dot(to, d);
+      const float square = along * along + ball.radius2 - glm::dot(to, to);
+      if (!(square > 0) || (i > 0 && !ball.holds(place))) break;
+      const float further = (along + std::sqrt(square)) * kWithin;
+      if (!(further > 0)) break;
+      clear += further;
+      if (clear >= distance) return distance;
+    }
+    return clear;
   }
 
   [[nodiscard]] std::size_t bytes() const noexcept {

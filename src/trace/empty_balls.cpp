@@ -11,11 +11,16 @@
 namespace meander {
 namespace {
 
-constexpr int kBlock = 16;             // cells along the side of what one task fills
-constexpr int kShrinkings = 12;        // of a ball, at most
-constexpr Real kSettled = Real(0.98);  // a ball that touches so nearly is not shrunk again
-constexpr Real kReach = 4;             // radius of a touching ball, at most, in sides of its cube
-constexpr float kMargin = 0x1p-13f;    // of the body's scale: what the radius is short of the distance
+constexpr int kBlock = 16;              // cells along the side of what one task fills
+constexpr int kShrinkings = 12;         // of a ball, at most
+constexpr Real kSettled = Real(0.996);  // a ball that touches so nearly is not shrunk again
+constexpr Real kReach = 4;              // radius of a touching ball, at most, in sides of its cube
+constexpr float kMargin = 0x1p-13f;     // of the body's scale: what the radius is short of the distance
+
+constexpr Real kPlaneMargin = 0x1p-18f;  // of the scale: how much deeper than touching a ball lies
+// Of a ball's radius, what must be left for one that faces all of its cell, and what is as good as all.
+constexpr Real kLeastFacing = Real(0.5);
+constexpr Real kNearlyAll = Real(0.996);
 
 // A cube of cells, and the balls of the cubes that it is a part of.
 struct Cube {
@@ -29,6 +34,7 @@ struct Fill {
   glm::ivec3 corner;
   int side;
   EmptyBall ball;
+  EmptyBall facing;  // where the ball is followed
 };
 
 struct Filling {
@@ -45,14 +51,17 @@ class Filler {
   void divide(const Cube& cube, int stop, Filling& filling) const {
     for (int i = 0; i < cube.outers; ++i)
       if (covers(cube.outer[static_cast<std::size_t>(i)], cube))
-        return filling.fills.push_back({cube.corner, cube.side, cube.outer[static_cast<std::size_t>(i)]});
+        return filling.fills.push_back({cube.corner, cube.side, cube.outer[static_cast<std::size_t>(i)], {}});
     if (cube.side == stop) return filling.left.push_back(cube);
     const Real side = cell_ * Real(cube.side);
     const Found found = find(middle_of(cube), side);
     if (found.outside) return;
-    if (found.ball.radius2 > 0 && (cube.side == 1 || covers(found.ball, cube)))
-      return filling.fills.push_back({cube.corner, cube.side, found.ball});
-    if (cube.side == 1) return;
+    if (found.ball.radius2 > 0 && covers(found.ball, cube))
+      return filling.fills.push_back({cube.corner, cube.side, found.ball, {}});
+    if (cube.side == 1) {
+      if (found.ball.radius2 > 0) filling.fills.push_back(face(cube, found.ball));
+      return;
+    }
     const int half = cube.side / 2;
     for (int i = 0; i < 8; ++i) {
       Cube part = cube;
@@ -105,11 +114,25 @@ class Filler {
     return {};
   }
 
+  // The ball of a cell that reaches out of it, and the part of it that all steps into are safe.
+  [[nodiscard]] Fill face(const Cube& cell, const EmptyBall& ball) const {
+    const Real radius = std::sqrt(Real(ball.radius2));
+    const Real rounding = body_.scale() * kPlaneMargin;
+    const Real spread = cell_ * std::sqrt(Real(3)) / 2 * (1 + kPlaneMargin) + rounding;
+    const Real depth = body_.depth_from(middle_of(cell), spread, Vec3(ball.center), radius + rounding);
+    const Real less = std::min(radius, depth - rounding);
+    if (less < kLeastFacing * radius) return {cell.corner, cell.side, ball, {}};
+    const EmptyBall facing(ball.center, static_cast<float>(less), EmptyBall::facing);
+    if (less >= kNearlyAll * radius) return {cell.corner, cell.side, facing, {}};
+    return {cell.corner, cell.side, EmptyBall(ball.center, static_cast<float>(radius), EmptyBall::followed),
+            facing};
+  }
+
   [[nodiscard]] EmptyBall make_ball(const Vec3& center, Real distance) const {
     const Vec3 room = body_.half_size() - glm::abs(center);
     const Real safe = std::min({distance, room.x, room.y, room.z}) - body_.scale() * kMargin;
     if (!(safe > 0)) return {};
-    return {glm::vec3(center), static_cast<float>(safe * safe)};
+    return EmptyBall(glm::vec3(center), static_cast<float>(safe), EmptyBall::plain);
   }
 
   const MeshBody& body_;
@@ -120,6 +143,7 @@ class Filler {
 void put(const Fill& fill, EmptyBalls& grid) {
   const auto number = static_cast<std::uint32_t>(grid.balls.size());
   grid.balls.push_back(fill.ball);
+  if (fill.ball.promise() == EmptyBall::followed) grid.balls.push_back(fill.facing);
   const glm::ivec3 end = glm::min(fill.corner + fill.side, grid.size);
   for (int z = fill.corner.z; z < end.z; ++z)
     for (int y = fill.corner.y; y < end.y; ++y)
@@ -128,6 +152,14 @@ void put(const Fill& fill, EmptyBalls& grid) {
 }
 
 }  // namespace
+
+int cells_for(const MeshBody& body, Real mean_free_path) noexcept {
+  constexpr int kStep = 32;
+  const Real half = largest(body.half_size());
+  if (!(mean_free_path < half)) return 0;
+  const Real steps = 2 * half / (3 * mean_free_path * kStep);
+  return kStep * static_cast<int>(std::clamp(std::round(steps), Real(2), Real(4)));
+}
 
 EmptyBalls make_empty_balls(const MeshBody& body, int threads, int cells) {
   EmptyBalls grid;

@@ -110,8 +110,9 @@ double length_inside(const AffineShape<Unit>& shape, const Approach& ray, const 
   return std::max(std::min(interval->far, distance + ray.slack) - std::max(interval->near, ray.slack), 0.0);
 }
 
-double length_inside(const MeshBody& mesh, const Approach& ray, const Placement& placement,
-                     double distance) noexcept {
+// From one surface to the next.
+double sum_lengths_inside(const MeshBody& mesh, const Approach& ray, const Placement& placement,
+                          double distance) noexcept {
   double inside = 0;
   double done = 0;
   for (Approach rest = ray; done < distance;) {
@@ -125,6 +126,18 @@ double length_inside(const MeshBody& mesh, const Approach& ray, const Placement&
     rest = {DVec3(hit->point) + step * DVec3(ray.direction), ray.direction, 0};
   }
   return inside;
+}
+
+double length_inside(const MeshBody& mesh, const Approach& ray, const Placement& placement,
+                     double distance) noexcept {
+  const auto entry = bounds_entry(ray, mesh.half_size());
+  if (!entry || *entry >= distance + ray.slack) return 0;
+  if (ray.slack == 0) {
+    const Vec3 origin = local_origin(ray, *entry);
+    const auto length = mesh.length_inside(origin, ray.direction, distance - *entry, *entry > 0);
+    if (length) return *length;
+  }
+  return sum_lengths_inside(mesh, ray, placement, distance);
 }
 
 template <class Shape>
@@ -152,6 +165,11 @@ Real size_of(const DMat3& map) noexcept {
   return static_cast<Real>(std::max({glm::length(map[0]), glm::length(map[1]), glm::length(map[2])}));
 }
 
+// Of the unit box under a map whose columns are at right angles.
+double half_diagonal(const DMat3& map) noexcept {
+  return std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
+}
+
 }  // namespace
 
 Geometry::Geometry(const Scene& scene, int threads, const Geometry* previous)
@@ -163,13 +181,12 @@ Geometry::Geometry(const Scene& scene, int threads, const Geometry* previous)
 // Whether a light with an extent may lie, partly at least, inside a body: whether their bounding spheres
 // meet.
 bool Geometry::holds_light(const Body& body, const Scene& scene) noexcept {
-  const double reach = std::holds_alternative<SlabBody>(body.shape) ? kInfinity : 1.7321 * double{body.size};
   for (const Light& light : scene.lights) {
     if (const auto* sphere = std::get_if<SphereLight>(&light.shape))
-      if (glm::length(sphere->center - body.center) <= reach + sphere->radius) return true;
+      if (glm::length(sphere->center - body.center) <= body.radius + sphere->radius) return true;
     if (const auto* rectangle = std::get_if<RectangleLight>(&light.shape))
       if (glm::length(rectangle->center - body.center) <=
-          reach + 0.5 * std::hypot(rectangle->width, rectangle->height))
+          body.radius + 0.5 * std::hypot(rectangle->width, rectangle->height))
         return true;
   }
   return false;
@@ -203,15 +220,16 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, con
   const Rgb sigma_t = matched ? translucent->medium.sigma_t : Rgb(0);
   const DVec3& origin = object.transform.translate;
   if (std::holds_alternative<SphereShape>(object.shape))
-    return {SphereBody(map), origin, size_of(map), closed, matched, false, sigma_t};
+    return {SphereBody(map), origin, size_of(map), size_of(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<BoxShape>(object.shape))
-    return {BoxBody(map), origin, size_of(map), closed, matched, false, sigma_t};
+    return {BoxBody(map), origin, size_of(map), half_diagonal(map), closed, matched, false, sigma_t};
   if (std::holds_alternative<SlabShape>(object.shape))
-    return {SlabBody(map), origin, size_of(map), closed, matched, false, sigma_t};
+    return {SlabBody(map), origin, size_of(map), kInfinity, closed, matched, false, sigma_t};
   SharedMesh mesh = make_mesh(std::get<std::shared_ptr<const Mesh>>(object.shape), map, previous);
   const Real size = largest(mesh->body.half_size());
   const DVec3 center = origin + mesh->center;
-  return {std::move(mesh), center, size, closed, matched, false, sigma_t};
+  const double radius = mesh->body.radius();
+  return {std::move(mesh), center, size, radius, closed, matched, false, sigma_t};
 }
 
 bool Geometry::is_finished() const {
@@ -228,7 +246,7 @@ bool Geometry::finish(const std::atomic<bool>& stop) const {
   });
 }
 
-SafeRegion Geometry::safe_region(std::size_t object) const {
+SafeRegion Geometry::safe_region(std::size_t object) const noexcept {
   const auto region_of = [](const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, SharedMesh>)
       return SafeRegion{.kind = SafeRegion::Kind::balls, .balls = &shape->balls.get()};
@@ -236,6 +254,10 @@ SafeRegion Geometry::safe_region(std::size_t object) const {
       return convex_region(shape);
   };
   return std::visit(region_of, bodies_[object].shape);
+}
+
+Real Geometry::clearance(std::size_t object, const Vec3& point) const noexcept {
+  return walks_in_lanes(object) ? safe_region(object).clearance(point) : Real(0);
 }
 
 Real Geometry::offset(std::size_t object, const Vec3& point) const noexcept {

@@ -36,6 +36,9 @@ class Geometry {
   /// Half the object's largest extent, about.
   [[nodiscard]] Real size(std::size_t object) const noexcept { return bodies_[object].size; }
 
+  /// Of a ball about the object's origin that holds all of it; infinite for a slab.
+  [[nodiscard]] double radius(std::size_t object) const noexcept { return bodies_[object].radius; }
+
   /// The object's own origin, in the world.
   [[nodiscard]] const DVec3& center(std::size_t object) const noexcept { return bodies_[object].center; }
 
@@ -58,7 +61,11 @@ class Geometry {
 
   /// Where steps of a walk in a translucent object cross nothing. Refers to the geometry, which must be
   /// finished.
-  [[nodiscard]] SafeRegion safe_region(std::size_t object) const;
+  [[nodiscard]] SafeRegion safe_region(std::size_t object) const noexcept;
+
+  /// A lower bound of the distance from a point of a translucent object, in its own coordinates, to its
+  /// surface; the geometry must be finished.
+  [[nodiscard]] Real clearance(std::size_t object, const Vec3& point) const noexcept;
 
   /// Whether the balls of every mesh that holds a medium are there; finish makes them, false when `stop` came
   /// first. Errors: whatever the making throws.
@@ -75,8 +82,11 @@ class Geometry {
   // A mesh on its device, and what it was made of, by which another geometry knows it again.
   struct PlacedMesh {
     PlacedMesh(std::shared_ptr<RTCDeviceTy> on, const std::shared_ptr<const Mesh>& mesh, const DMat3& linear)
-        : device(std::move(on)), source(mesh), map(linear), body(device.get(), *mesh, map, center), balls(body) {}
-
+        : device(std::move(on)),
+          source(mesh),
+          map(linear),
+          body(device.get(), *mesh, map, center),
+          balls(body) {}
 
     std::shared_ptr<RTCDeviceTy> device;
     std::weak_ptr<const Mesh> source;
@@ -91,6 +101,7 @@ class Geometry {
     std::variant<SphereBody, BoxBody, SlabBody, SharedMesh> shape;
     DVec3 center;
     Real size;
+    double radius;
     bool closed;   // it holds a medium: its surface has an inside
     bool matched;  // light passes it unscattered
     bool holds_light;

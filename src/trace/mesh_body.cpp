@@ -1,11 +1,14 @@
 #include "trace/mesh_body.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
 #include "core/error.h"
+#include "trace/packet_distances.h"
 
 namespace meander {
 namespace {
@@ -56,55 +59,6 @@ void intersect(RTCScene scene, RTCRayHit& query, RTCFilterFunctionN filter) noex
   rtcIntersect1(scene, &context, &query);
 }
 
-// The point of a triangle that is nearest to p: the nearest of its edges' points and, where that is inside,
-// the foot of the perpendicular. Edges always count, so that a needle's normal may be as bad as it likes.
-Vec3 nearest_in_triangle(const Vec3& p, const std::array<Vec3, 3>& corners) noexcept {
-  const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-  const Real normal2 = glm::dot(normal, normal);
-  bool inside = normal2 > 0;
-  Vec3 best = corners[0];
-  Real best2 = std::numeric_limits<Real>::infinity();
-  const auto offer = [&](const Vec3& candidate) {
-    const Real d2 = glm::dot(p - candidate, p - candidate);
-    if (!(d2 < best2)) return;
-    best2 = d2;
-    best = candidate;
-  };
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3& from = corners[i];
-    const Vec3 edge = corners[(i + 1) % 3] - from;
-    const Vec3 to = p - from;
-    inside = inside && glm::dot(glm::cross(edge, to), normal) >= 0;
-    const Real length2 = glm::dot(edge, edge);
-    offer(from + (length2 > 0 ? std::clamp(glm::dot(to, edge) / length2, Real(0), Real(1)) : Real(0)) * edge);
-  }
-  if (inside) offer(p - normal * (glm::dot(p - corners[0], normal) / normal2));
-  return best;
-}
-
-// What a nearest-point query carries from triangle to triangle.
-struct NearestSearch {
-  const glm::vec3* positions;
-  const Triangle* triangles;
-  Vec3 place;
-  Vec3 point{0};
-  unsigned triangle = RTC_INVALID_GEOMETRY_ID;
-};
-
-bool visit_triangle(RTCPointQueryFunctionArguments* args) {
-  auto& search = *static_cast<NearestSearch*>(args->userPtr);
-  const Triangle& t = search.triangles[args->primID];
-  const Vec3 point = nearest_in_triangle(
-      search.place,
-      {Vec3(search.positions[t[0]]), Vec3(search.positions[t[1]]), Vec3(search.positions[t[2]])});
-  const auto distance = static_cast<float>(glm::length(search.place - point));
-  if (!(distance < args->query->radius)) return false;
-  args->query->radius = distance;
-  search.point = point;
-  search.triangle = args->primID;
-  return true;
-}
-
 }  // namespace
 
 Device make_device(int threads) {
@@ -114,7 +68,7 @@ Device make_device(int threads) {
 }
 
 MeshBody::MeshBody(RTCDevice device, const Mesh& mesh, const DMat3& map, DVec3& center)
-    : triangles_(mesh.triangles), normal_triangles_(mesh.normal_triangles) {
+    : triangles_(mesh.triangles) {
   std::vector<DVec3> mapped(mesh.positions.size());
   std::transform(mesh.positions.begin(), mesh.positions.end(), mapped.begin(),
                  [&](const DVec3& p) { return map * p; });
@@ -128,15 +82,23 @@ MeshBody::MeshBody(RTCDevice device, const Mesh& mesh, const DMat3& map, DVec3& 
   half_size_ = Vec3(0.5 * (high - low));
   scale_ = std::exp2(std::floor(std::log2(largest(half_size_))) + 1);
   inverse_scale_ = 1 / scale_;
-  for (const DVec3& p : mapped) positions_.emplace_back((p - center) * double{inverse_scale_});
+  for (const DVec3& p : mapped) {
+    positions_.emplace_back((p - center) * double{inverse_scale_});
+    radius_ = std::max(radius_, glm::length(p - center) * (1 + 0x1p-18));
+  }
   positions_.emplace_back(0);
   const DMat3 normal_map = glm::transpose(glm::inverse(map));
-  for (const glm::vec3& n : mesh.normals) normals_.emplace_back(glm::normalize(normal_map * DVec3(n)));
+  std::vector<glm::vec3> normals;
+  for (const glm::vec3& n : mesh.normals) normals.emplace_back(glm::normalize(normal_map * DVec3(n)));
+  for (const Triangle& t : mesh.normal_triangles)
+    normals_.push_back({normals[t[0]], normals[t[1]], normals[t[2]]});
   if (glm::determinant(map) < 0) {
     for (Triangle& t : triangles_) std::swap(t[1], t[2]);
-    for (Triangle& t : normal_triangles_) std::swap(t[1], t[2]);
+    for (auto& n : normals_) std::swap(n[1], n[2]);
   }
 
+  packets_ = make_packets(std::span(positions_).first(positions_.size() - 1), triangles_);
+  cells_ = make_surface_cells(packets_, glm::vec3(half_size_ * inverse_scale_));
   scene_.reset(rtcNewScene(device));
   rtcSetSceneFlags(scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                             RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
@@ -152,55 +114,83 @@ MeshBody::MeshBody(RTCDevice device, const Mesh& mesh, const DMat3& map, DVec3& 
   check_device(device, "building a mesh's hierarchy");
 }
 
-MeshHit MeshBody::resolve(const RTCRayHit& query) const noexcept {
+MeshBody::Met MeshBody::met_by(const RTCRayHit& query) const noexcept {
   const Triangle& t = triangles_[query.hit.primID];
-  const Vec3 a(positions_[t[0]]);
-  const Vec3 b(positions_[t[1]]);
-  const Vec3 c(positions_[t[2]]);
   const Real u = query.hit.u;
   const Real v = query.hit.v;
-  const Real w = 1 - u - v;
-  const Vec3 normal = glm::normalize(Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
-  Vec3 shading = normal;
-  if (!normal_triangles_.empty()) {
-    const Triangle& n = normal_triangles_[query.hit.primID];
-    const Vec3 sum = w * Vec3(normals_[n[0]]) + u * Vec3(normals_[n[1]]) + v * Vec3(normals_[n[2]]);
-    const Real length = glm::length(sum);
-    if (length > 0 && glm::dot(sum, normal) > 0) shading = sum / length;
-  }
-  return {query.ray.tfar, w * a + u * b + v * c, normal, shading};
+  const Vec3 point =
+      (1 - u - v) * Vec3(positions_[t[0]]) + u * Vec3(positions_[t[1]]) + v * Vec3(positions_[t[2]]);
+  return {
+      query.hit.primID, query.ray.tfar, point, Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z), u, v};
+}
+
+Vec3 MeshBody::shading_normal(std::uint32_t triangle, Real u, Real v, const Vec3& normal) const noexcept {
+  if (normals_.empty()) return normal;
+  const auto& n = normals_[triangle];
+  const Vec3 sum = (1 - u - v) * Vec3(n[0]) + u * Vec3(n[1]) + v * Vec3(n[2]);
+  const Real length = glm::length(sum);
+  return length > 0 && glm::dot(sum, normal) > 0 ? sum / length : normal;
 }
 
 std::optional<MeshHit> MeshBody::closest(const Vec3& o, const Vec3& d, Real distance) const noexcept {
   RTCRayHit query = make_query(o * inverse_scale_, d, distance * inverse_scale_);
   intersect(scene_.get(), query, nullptr);
   if (!is_hit(query)) return std::nullopt;
-  MeshHit hit = resolve(query);
-  hit.distance *= scale_;
-  hit.point *= scale_;
-  return hit;
+  const Met met = met_by(query);
+  const Vec3 normal = glm::normalize(met.normal);
+  return MeshHit{met.distance * scale_, met.point * scale_, normal,
+                 shading_normal(met.triangle, met.u, met.v, normal)};
 }
 
 std::optional<Nearest> MeshBody::nearest(const Vec3& p, Real limit) const noexcept {
-  NearestSearch search{positions_.data(), triangles_.data(), p * inverse_scale_};
-  RTCPointQuery query{static_cast<float>(search.place.x), static_cast<float>(search.place.y),
-                      static_cast<float>(search.place.z), 0, static_cast<float>(limit * inverse_scale_)};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene_.get(), &query, &context, visit_triangle, &search);
-  if (search.triangle == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const Triangle& t = triangles_[search.triangle];
+  const NearestPoint found =
+      find_nearest(packets_, glm::vec3(p * inverse_scale_), static_cast<float>(limit * inverse_scale_));
+  if (found.triangle == NearestPoint::kNoTriangle) return std::nullopt;
+  const Triangle& t = triangles_[found.triangle];
   const Vec3 a(positions_[t[0]]);
   const Vec3 normal = glm::cross(Vec3(positions_[t[1]]) - a, Vec3(positions_[t[2]]) - a);
   const Real length = glm::length(normal);
-  return Nearest{search.point * scale_, length > 0 ? normal / length : Vec3(0), Real(query.radius) * scale_};
+  return Nearest{Vec3(found.point) * scale_, length > 0 ? normal / length : Vec3(0),
+                 Real(found.distance) * scale_};
+}
+
+Real MeshBody::depth_from(const Vec3& from, Real spread, const Vec3& p, Real radius) const noexcept {
+  const auto local = [&](Real length) { return static_cast<float>(length * inverse_scale_); };
+  const auto place = [&](const Vec3& v) { return glm::vec3(v * inverse_scale_); };
+  return Real(find_depth(packets_, {place(from), local(spread)}, {place(p), local(radius)}, local(radius))) *
+         scale_;
+}
+
+MeshBody::Begun MeshBody::restore(Begun begun, Real distance) const noexcept {
+  Crossing& crossing = begun.crossing;
+  crossing.distance = crossing.kind == CrossingKind::none ? distance : crossing.distance * scale_;
+  crossing.point *= scale_;
+  return begun;
+}
+
+MeshBody::Begun MeshBody::begin_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+  const Begun begun = restore(cross(p * inverse_scale_, d, distance * inverse_scale_), distance);
+  if (begun.triangle != Begun::kNoTriangle && !normals_.empty()) {
+    const auto* normals = reinterpret_cast<const char*>(&normals_[begun.triangle]);
+    hwy::Prefetch(normals);
+    hwy::Prefetch(normals + sizeof(normals_[0]) - 1);
+  }
+  return begun;
+}
+
+Crossing MeshBody::finish_crossing(const Begun& begun) const noexcept {
+  Crossing crossing = begun.crossing;
+  if (begun.triangle != Begun::kNoTriangle)
+    crossing.shading_normal = shading_normal(begun.triangle, begun.u, begun.v, crossing.normal);
+  return crossing;
 }
 
 Crossing MeshBody::first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
-  Crossing crossing = cross(p * inverse_scale_, d, distance * inverse_scale_);
-  crossing.distance = crossing.kind == CrossingKind::none ? distance : crossing.distance * scale_;
-  crossing.point *= scale_;
-  return crossing;
+  return finish_crossing(begin_crossing(p, d, distance));
+}
+
+Crossing MeshBody::first_crossing_in_tree(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+  return finish_crossing(restore(cross_in_tree(p * inverse_scale_, d, distance * inverse_scale_), distance));
 }
 
 // Whether a point next to the surface lies outside of it: whether the nearest surface behind it, seen along
@@ -214,19 +204,29 @@ bool MeshBody::is_outside(const Vec3& p, const Vec3& d) const noexcept {
 
 // A step that meets no exit: inside, unless it ends beyond the bounds. Then it has leaked, and `distance` is
 // how far the bounds are.
-Crossing MeshBody::without_exit(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+MeshBody::Begun MeshBody::without_exit(const Vec3& p, const Vec3& d, Real distance) const noexcept {
   const Vec3 half = half_size_ * inverse_scale_ + kMargin;
   const Vec3 end = p + distance * d;
-  if (largest(glm::abs(end) - half) <= 0) return {CrossingKind::none, distance, end, {}, {}};
+  if (largest(glm::abs(end) - half) <= 0) return {{CrossingKind::none, distance, end, {}, {}}};
   Real far = distance;
   for (int axis = 0; axis < 3; ++axis)
     if (d[axis] != 0) far = std::min(far, (std::copysign(half[axis], d[axis]) - p[axis]) / d[axis]);
-  return {CrossingKind::leaked, std::max(far, Real(0)), p, {}, {}};
+  return {{CrossingKind::leaked, std::max(far, Real(0)), p, {}, {}}};
 }
 
-Crossing MeshBody::cross(const Vec3& p, const Vec3& d, Real distance) const noexcept {
-  // Looking from a little behind finds the exit that rounding may have carried the point across; looking a
-  // little too far finds the surface that the end of the step may round across.
+// Looking from a little behind finds the exit that rounding may have carried the point across; looking a
+// little too far finds the surface that the end of the step may round across.
+MeshBody::Begun MeshBody::cross(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+  const ShortExit exit =
+      find_exit(packets_, cells_,
+                {glm::vec3(p - kMargin * d), glm::vec3(d), static_cast<float>(distance + 2 * kMargin)});
+  if (exit.kind == ShortExit::Kind::none) return without_exit(p, d, distance);
+  if (exit.kind == ShortExit::Kind::unknown || exit.distance < kMargin) return cross_in_tree(p, d, distance);
+  return cross_at(p, d, distance,
+                  {exit.triangle, exit.distance, Vec3(exit.point), Vec3(exit.normal), exit.u, exit.v});
+}
+
+MeshBody::Begun MeshBody::cross_in_tree(const Vec3& p, const Vec3& d, Real distance) const noexcept {
   RTCRayHit query = make_query(p - kMargin * d, d, distance + 2 * kMargin);
   intersect(scene_.get(), query, accept_exits);
   if (is_hit(query) && query.ray.tfar < kMargin && !is_outside(p, d)) {
@@ -235,15 +235,19 @@ Crossing MeshBody::cross(const Vec3& p, const Vec3& d, Real distance) const noex
     query.ray.tfar += static_cast<float>(kMargin);
   }
   if (!is_hit(query)) return without_exit(p, d, distance);
-  const Real exit_distance = std::max(Real(query.ray.tfar) - kMargin, Real(0));
+  return cross_at(p, d, distance, met_by(query));
+}
+
+// A step that may meet an exit, `met` from kMargin behind.
+MeshBody::Begun MeshBody::cross_at(const Vec3& p, const Vec3& d, Real distance, const Met& met) noexcept {
+  const Real exit_distance = std::max(met.distance - kMargin, Real(0));
+  const Vec3 normal = glm::normalize(met.normal);
   if (distance < exit_distance) {
-    const Vec3 normal = glm::normalize(Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
     const bool at_surface = (exit_distance - distance) * glm::dot(d, normal) < kOffset;
     const Vec3 end = p + distance * d;
-    return {CrossingKind::none, distance, at_surface ? end - kOffset * normal : end, {}, {}};
+    return {{CrossingKind::none, distance, at_surface ? end - kOffset * normal : end, {}, {}}};
   }
-  const MeshHit hit = resolve(query);
-  return {CrossingKind::exit, exit_distance, hit.point, hit.normal, hit.shading_normal};
+  return {{CrossingKind::exit, exit_distance, met.point, normal, normal}, met.triangle, met.u, met.v};
 }
 
 }  // namespace meander

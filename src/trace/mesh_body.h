@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scene/crossing.h"
-#include "scene/mesh.h"
+#include "trace/packet_rays.h"
 
 namespace meander {
 
@@ -48,8 +48,30 @@ class MeshBody {
 
   /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. Only
   /// crossings outward count. A point that rounding left outside leaves at once, and one about to be left
-  /// outside is moved in by the offset.
+  /// outside is moved in by the offset. Short steps are looked up in a grid, the others in Embree's tree.
   [[nodiscard]] Crossing first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+
+  /// The same, always by Embree's tree: the oracle of the grid.
+  [[nodiscard]] Crossing first_crossing_in_tree(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+
+  /// A step whose shading normal is still to be looked up, in memory that has been asked for.
+  struct Begun {
+    static constexpr std::uint32_t kNoTriangle = 0xffffffff;
+
+    Crossing crossing;  // whose shading normal is the geometric one
+    std::uint32_t triangle = kNoTriangle;
+    Real u = 0;  // the weights of the triangle's second and third corners
+    Real v = 0;
+  };
+
+  /// first_crossing in two halves, for who has several steps under way.
+  [[nodiscard]] Begun begin_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+  [[nodiscard]] Crossing finish_crossing(const Begun& begun) const noexcept;
+
+  /// Asks for the memory that a step from here will need, so that it is near when the step is asked for.
+  void prefetch(const Vec3& p) const noexcept {
+    prefetch_exit(packets_, cells_, glm::vec3(p * inverse_scale_));
+  }
 
   /// The first surface within `distance` along a ray, from either side.
   [[nodiscard]] std::optional<MeshHit> closest(const Vec3& o, const Vec3& d, Real distance) const noexcept;
@@ -58,6 +80,20 @@ class MeshBody {
   /// or beyond it, by at most 2^-20 of the scale.
   [[nodiscard]] std::optional<Nearest> nearest(const Vec3& p, Real limit) const noexcept;
 
+  /// How much of `distance` (may be infinite) of a ray lies inside the mesh, which must be closed; `outside`
+  /// says that the ray is known to start there. In one traversal; nothing where that is in doubt: beside an
+  /// edge, at a grazing angle, past a hole, with more than 16 meetings.
+  [[nodiscard]] std::optional<double> length_inside(const Vec3& o, const Vec3& d, double distance,
+                                                    bool outside) const noexcept;
+
+  /// A radius of a ball about `p`, at most `radius`, for which no step to a point of it from a point inside
+  /// of the body within `spread` of `from` leaves the body; 0 or less where there is none. The ball of
+  /// `radius` must hold no part of the surface.
+  [[nodiscard]] Real depth_from(const Vec3& from, Real spread, const Vec3& p, Real radius) const noexcept;
+
+  /// Of a ball about the origin that holds the mesh.
+  [[nodiscard]] double radius() const noexcept { return radius_; }
+
   /// Half the size of the bounds along each axis.
   [[nodiscard]] const Vec3& half_size() const noexcept { return half_size_; }
 
@@ -65,18 +101,35 @@ class MeshBody {
   [[nodiscard]] Real scale() const noexcept { return scale_; }
 
  private:
+  // Where a triangle is met: its second and third corners weigh u and v there.
+  struct Met {
+    std::uint32_t triangle;
+    Real distance;
+    Vec3 point;
+    Vec3 normal;  // of any length
+    Real u;
+    Real v;
+  };
+  [[nodiscard]] Met met_by(const RTCRayHit& query) const noexcept;
+
   // In units of scale_.
-  [[nodiscard]] MeshHit resolve(const RTCRayHit& query) const noexcept;
+  [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Real u, Real v,
+                                    const Vec3& normal) const noexcept;
   [[nodiscard]] bool is_outside(const Vec3& p, const Vec3& d) const noexcept;
-  [[nodiscard]] Crossing cross(const Vec3& p, const Vec3& d, Real distance) const noexcept;
-  [[nodiscard]] Crossing without_exit(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+  [[nodiscard]] Begun cross(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+  [[nodiscard]] Begun cross_in_tree(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+  [[nodiscard]] static Begun cross_at(const Vec3& p, const Vec3& d, Real distance, const Met& met) noexcept;
+  [[nodiscard]] Begun without_exit(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+  [[nodiscard]] Begun restore(Begun begun, Real distance) const noexcept;
 
   std::vector<glm::vec3> positions_;  // one spare at the end: Embree reads 16 bytes a vertex
   std::vector<Triangle> triangles_;
-  std::vector<glm::vec3> normals_;
-  std::vector<Triangle> normal_triangles_;
+  std::vector<std::array<glm::vec3, 3>> normals_;  // of each triangle's corners, if the mesh has any
+  Packets packets_;
+  SurfaceCells cells_;
   std::unique_ptr<RTCSceneTy, SceneRelease> scene_;
   Vec3 half_size_{0};
+  double radius_ = 0;
   // Inside, lengths are divided by a power of two, exactly, so that every mesh is of a size about 1.
   Real scale_ = 1;
   Real inverse_scale_ = 1;

@@ -152,7 +152,7 @@ struct Region<SafeRegion::Kind::balls> {
   }
 };
 
-template <SafeRegion::Kind kKind, bool kChromatic, bool kAnisotropic, bool kTallies>
+template <SafeRegion::Kind kKind, bool kChromatic, bool kAnisotropic>
 class Kernel {
  public:
   HWY_INLINE Kernel(const LaneModel& model, Lanes& lanes)
@@ -283,7 +283,7 @@ class Kernel {
     const VU one = hn::IfThenElseZero(m, hn::Set(U(), 1));
     hn::Store(hn::IfThenElse(m, one, hn::Load(U(), lanes_.scatters + at)), U(), lanes_.scatters + at);
     if constexpr (kChromatic) weigh_free_path(at, safe, distance);
-    if constexpr (kTallies) tally(at, safe, distance);
+    tally(at, safe, distance);
 
     VF weight = set(0);
     for (int c = 0; c < 3; ++c) {
@@ -344,22 +344,20 @@ class Kernel {
   Lanes& lanes_;
 };
 
-template <SafeRegion::Kind kKind, bool kChromatic, bool kTallies>
+template <SafeRegion::Kind kKind, bool kChromatic>
 void advance_with(const LaneModel& model, Lanes& lanes, int count, int enough) {
   if (model.medium.g == 0)
-    Kernel<kKind, kChromatic, false, kTallies>(model, lanes).run(count, enough);
+    Kernel<kKind, kChromatic, false>(model, lanes).run(count, enough);
   else
-    Kernel<kKind, kChromatic, true, kTallies>(model, lanes).run(count, enough);
+    Kernel<kKind, kChromatic, true>(model, lanes).run(count, enough);
 }
 
 template <SafeRegion::Kind kKind>
 void advance_in(const LaneModel& model, Lanes& lanes, int count, int enough) {
-  if constexpr (kKind != SafeRegion::Kind::balls)
-    if (model.tallies) return advance_with<kKind, false, true>(model, lanes, count, enough);
   if (!is_grey(model.medium.sigma_t))
-    advance_with<kKind, true, false>(model, lanes, count, enough);
+    advance_with<kKind, true>(model, lanes, count, enough);
   else
-    advance_with<kKind, false, false>(model, lanes, count, enough);
+    advance_with<kKind, false>(model, lanes, count, enough);
 }
 
 void advance(const LaneModel& model, Lanes& lanes, int count, int enough) {

@@ -2,6 +2,10 @@
 // rest.
 #pragma once
 
+#include <hwy/cache_control.h>
+
+#include <utility>
+
 #include "walk/lanes.h"
 
 namespace meander {
@@ -10,8 +14,8 @@ namespace meander {
 /// start(lane, walker, random): sets up the first walk of a lane, or says false when there is none left.
 /// end(lane, result, walker, random): a walk of the lane has ended; true when another (the same one, sent
 /// back inside, or a new one) has been set up in its place. collided(lane, walker, random): see WalkEvents::
-/// scattered; the random numbers it draws are the walk's. tally(lane, path, absorbed), which a client of a
-/// model that tallies has besides: what the walk has flown, times its weight, and left behind, since the
+/// scattered; the random numbers it draws are the walk's. tally(lane, path, absorbed), which a client may
+/// have besides: what the walk has flown, times its weight, and left behind, of the first channel, since the
 /// last call.
 template <class C>
 concept LaneClient = requires(C& client, int lane, const WalkResult& result, Walker& walker, Random& random) {
@@ -45,10 +49,13 @@ class LaneWalks {
       Random random({1, 0, 0, 0});
       if (client_.start(lane, walker, random)) put(lane, walker, random, false);
     }
+    give_balls();
     while (in_use_ > 0) {
       if (client_.stop()) return false;
       advance_lanes(set_, model_, lanes_, kLanes, kLanes - in_use_ + std::min(kRestingLanes, in_use_));
+      trace_rays();
       for (int lane = 0; lane < kLanes; ++lane) see_to(lane);
+      give_balls();
     }
     return true;
   }
@@ -69,7 +76,7 @@ class LaneWalks {
   void put(int lane, const Walker& walker, const Random& random, bool scatters) noexcept {
     if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::empty)) ++in_use_;
     put_walker(lanes_, lane, walker, random, scatters, model_.medium.sigma_t);
-    if (model_.region.balls) put_ball(lanes_, lane, model_.region.balls->at(glm::vec3(walker.position)));
+    fresh_[fresh_count_++] = lane;
     put_[lane] = {walker.weight.ratio, walker.weight.since, walker.weight.order, walker.weight.hero};
   }
 
@@ -84,6 +91,75 @@ class LaneWalks {
       walker.weight.since = put.since;
     }
     return walker;
+  }
+
+  // Gives the lanes that have been put their balls, whose memory comes for all at once.
+  void give_balls() noexcept {
+    const int count = std::exchange(fresh_count_, 0);
+    const EmptyBalls* balls = model_.region.balls;
+    if (!balls) return;
+    std::size_t cells[kLanes];
+    for (int i = 0; i < count; ++i) {
+      cells[i] = balls->cell_at(position(fresh_[i]));
+      hwy::Prefetch(&balls->cells[cells[i]]);
+    }
+    for (int i = 0; i < count; ++i) hwy::Prefetch(&balls->balls[balls->cells[cells[i]]]);
+    for (int i = 0; i < count; ++i) put_ball(lanes_, fresh_[i], balls->from(position(fresh_[i])));
+  }
+
+  [[nodiscard]] glm::vec3 position(int lane) const noexcept {
+    return {lanes_.position[0][lane], lanes_.position[1][lane], lanes_.position[2][lane]};
+  }
+
+  // Rays are traced for all resting lanes together where the world can, so that it waits for memory once.
+  static constexpr bool kTogether = requires(const W& world, const Vec3& p, Real t) {
+    world.prefetch(p);
+    world.finish_crossing(world.begin_crossing(p, p, t));
+  };
+
+  void trace_rays() noexcept {
+    if constexpr (kTogether) {
+      int crossing[kLanes];
+      int count = 0;
+      for (int lane = 0; lane < kLanes; ++lane)
+        if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::crossing)) crossing[count++] = lane;
+      for (int i = 0; i < count; ++i) world_.prefetch(Vec3(position(crossing[i])));
+      for (int i = 0; i < count; ++i) begin_ray(crossing[i]);
+    } else {
+      for (int lane = 0; lane < kLanes; ++lane)
+        if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::crossing)) begin_ray(lane);
+    }
+  }
+
+  // The step of a lane; a long one's first part is often in balls.
+  void begin_ray(int lane) noexcept {
+    const Vec3 p(position(lane));
+    const Vec3 d(lanes_.direction[0][lane], lanes_.direction[1][lane], lanes_.direction[2][lane]);
+    const Real distance(lanes_.distance[lane]);
+    const EmptyBalls* balls = model_.region.balls;
+    Real clear = 0;
+    if (balls && distance * Real(balls->cells_per_unit) > 1)
+      clear = balls->clear_length(ball_of(lanes_, lane), position(lane), glm::vec3(d), lanes_.distance[lane]);
+    clear_[lane] = clear;
+    if (clear == distance) return;
+    ++counters_.rays;
+    if constexpr (kTogether)
+      begun_[lane] = world_.begin_crossing(p + clear * d, d, distance - clear);
+    else
+      begun_[lane] = world_.first_crossing(p + clear * d, d, distance - clear);
+  }
+
+  [[nodiscard]] Crossing finish_ray(int lane, const Walker& walker) const noexcept {
+    const Real distance(lanes_.distance[lane]);
+    if (clear_[lane] == distance)
+      return {CrossingKind::none, distance, walker.position + distance * walker.direction, {}, {}};
+    Crossing crossing;
+    if constexpr (kTogether)
+      crossing = world_.finish_crossing(begun_[lane]);
+    else
+      crossing = begun_[lane];
+    crossing.distance += clear_[lane];
+    return crossing;
   }
 
   void see_to(int lane) noexcept {
@@ -101,11 +177,9 @@ class LaneWalks {
     put(lane, walker, random, true);
   }
 
-  // Traces the ray of a step; true when it ended in a collision that the walk survived.
+  // Ends a step that needed a ray; true when it ended in a collision that the walk survived.
   [[nodiscard]] bool cross(int lane, Walker& walker, Random& random) noexcept {
-    ++counters_.rays;
-    const Crossing crossing =
-        world_.first_crossing(walker.position, walker.direction, Real(lanes_.distance[lane]));
+    const Crossing crossing = finish_ray(lane, walker);
     if constexpr (kTallies) {
       const Real carried = walker.weight.carried().x;
       const bool stays = crossing.kind == CrossingKind::none;
@@ -147,6 +221,16 @@ class LaneWalks {
   Lanes lanes_{};
   Put put_[kLanes] = {};
   int in_use_ = 0;
+  static auto begun_kind() {
+    if constexpr (kTogether)
+      return typename W::Begun{};
+    else
+      return Crossing{};
+  }
+  decltype(begun_kind()) begun_[kLanes];
+  Real clear_[kLanes] = {};  // of each crossing lane's step, the part that balls answer for
+  int fresh_[kLanes] = {};   // lanes that have been put and have no ball yet
+  int fresh_count_ = 0;
   LaneCounters counters_;
 };
 

@@ -35,9 +35,15 @@ void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& rand
 }
 
 void put_ball(Lanes& lanes, int lane, const EmptyBall& ball) noexcept {
-  if (!ball.holds(glm::vec3(get(lanes.position, lane)))) return;
   put(lanes.ball_center, lane, Vec3(ball.center));
   lanes.ball_radius2[lane] = ball.radius2;
+}
+
+EmptyBall ball_of(const Lanes& lanes, int lane) noexcept {
+  EmptyBall ball;
+  ball.center = glm::vec3(get(lanes.ball_center, lane));
+  ball.radius2 = lanes.ball_radius2[lane];
+  return ball;
 }
 
 Walker walker_of(const Lanes& lanes, int lane) noexcept {

@@ -29,7 +29,8 @@ enum class LaneState : std::uint32_t {
 
 /// The walks of a batch, one a lane; single precision. Weights as in PathWeight: `ratio` are the densities of
 /// the free paths in proportion, `lift` what roulette has multiplied the throughput by, which `throughput`
-/// leaves out. `ball` is one that holds the position, or has a negative squared radius.
+/// leaves out. `ball` is one into which no step from the position crosses anything, or has a negative squared
+/// radius.
 struct alignas(64) Lanes {
   using Row = float[kLanes];
   Row position[3];
@@ -58,20 +59,20 @@ struct alignas(64) Lanes {
 void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, bool scatters,
                 const Rgb& sigma_t) noexcept;
 
-/// Gives a lane a ball, if that holds its position.
+/// Gives a lane a ball, see Lanes.
 void put_ball(Lanes& lanes, int lane, const EmptyBall& ball) noexcept;
+
+[[nodiscard]] EmptyBall ball_of(const Lanes& lanes, int lane) noexcept;
 
 /// The walk of a lane (but for its hero channel) and the state of its generator, for scalar code.
 [[nodiscard]] Walker walker_of(const Lanes& lanes, int lane) noexcept;
 [[nodiscard]] Random random_of(const Lanes& lanes, int lane) noexcept;
 
 /// What the lanes walk through: implicit capture. `rests_at_collisions`: every collision needs a shadow ray.
-/// `tallies`: the rows `path` and `absorbed` are filled; for a grey medium in a convex region.
 struct LaneModel {
   Medium medium;
   SafeRegion region;
   bool rests_at_collisions = false;
-  bool tallies = false;
 };
 
 /// Which code walks: the scalar oracle, or lanes of SIMD wherever those can (implicit capture, no light

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 
 #include "scene/crossing.h"
 #include "walk/interface.h"
@@ -12,6 +13,7 @@
 #include "walk/lobe.h"
 #include "walk/random_walk.h"
 #include "walk/rough_interface.h"
+#include "walk/shadow_roulette.h"
 #include "walk/sink.h"
 
 namespace meander {
@@ -20,7 +22,8 @@ namespace meander {
 /// closest_hit: the first surface along a ray. center: an object's origin in the world. offset: the distance
 /// that outweighs the rounding of a point of it. with_body: calls f with the object's World, returns what f
 /// returns. transmittance: along a segment through every matched body on it, 0 where anything else stands in
-/// the way. traces_rays: whether a step in the object costs a ray.
+/// the way. traces_rays: whether a step in the object costs a ray. clearance: a lower bound of the distance
+/// from a point in the object to its surface.
 template <class G>
 concept SceneGeometry = requires(const G& geometry, const Ray& ray, std::size_t object, const Vec3& point,
                                  double distance) {
@@ -30,6 +33,7 @@ concept SceneGeometry = requires(const G& geometry, const Ray& ray, std::size_t 
   { geometry.transmittance(ray, distance) } -> std::same_as<Rgb>;
   { geometry.traces_rays(object) } -> std::same_as<bool>;
   { geometry.holds_light(object) } -> std::same_as<bool>;
+  { geometry.clearance(object, point) } -> std::convertible_to<Real>;
 };
 
 /// What happened on the way, for statistics.
@@ -50,6 +54,7 @@ struct PathCounters {
 struct PathOptions {
   Estimator estimator = Estimator::implicit;
   bool chromatic = false;                   // some medium's sigma_t differs between channels
+  bool knows_clearance = false;             // the geometry does, which makes shadow rays fewer
   const std::atomic<bool>* stop = nullptr;  // asked every kStopInterval steps
   bool sample_lights = true;                // false: lights are found by rays alone, which tests compare with
 };
@@ -71,6 +76,7 @@ struct Path {
   SurfaceHit hit;  // where it came in
   const TranslucentMaterial* material = nullptr;
   Walker walker;
+  ShadowRoulette shadows;
   std::uint64_t counted_steps = 0;  // of the walker's
 };
 
@@ -85,17 +91,24 @@ class PathTracer {
       : scene_(scene), geometry_(geometry), options_(options) {}
 
   /// Traces one path, with scalar walks, and hands its contributions to the sink; false when it was
-  /// interrupted.
+  /// interrupted. `hero` is the channel that samples a chromatic path's distances, uniformly distributed over
+  /// the paths of a pixel; without it, it is drawn.
   template <Sink S>
-  [[nodiscard]] bool trace(const Ray& camera_ray, Random& random, S& sink) noexcept;
+  [[nodiscard]] bool trace(const Ray& camera_ray, Random& random, S& sink,
+                           std::optional<int> hero = std::nullopt) noexcept;
 
   /// The same in pieces, for walks that are walked elsewhere: takes a new path as far as its first walk.
   template <Sink S>
-  [[nodiscard]] PathStep begin(Path& path, const Ray& camera_ray, Random& random, S& sink) noexcept;
+  [[nodiscard]] PathStep begin(Path& path, const Ray& camera_ray, Random& random, S& sink,
+                               std::optional<int> hero = std::nullopt) noexcept;
 
   /// Takes a path whose walk has ended as far as its next one.
   template <Sink S>
   [[nodiscard]] PathStep resume(Path& path, const WalkResult& walked, Random& random, S& sink) noexcept;
+
+  /// What a camera ray finds of which it is known that it meets no surface.
+  template <Sink S>
+  void escape(const Ray& camera_ray, S& sink) const noexcept;
 
   /// The walk that a path needs, by the scalar code.
   template <Sink S>

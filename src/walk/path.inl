@@ -5,9 +5,9 @@ namespace meander {
 
 template <SceneGeometry G>
 template <Sink S>
-bool PathTracer<G>::trace(const Ray& camera_ray, Random& random, S& sink) noexcept {
+bool PathTracer<G>::trace(const Ray& camera_ray, Random& random, S& sink, std::optional<int> hero) noexcept {
   Path path;
-  PathStep step = begin(path, camera_ray, random, sink);
+  PathStep step = begin(path, camera_ray, random, sink, hero);
   while (step == PathStep::walk) {
     const WalkResult walked = walk(path, random, sink);
     step = resume(path, walked, random, sink);
@@ -17,11 +17,13 @@ bool PathTracer<G>::trace(const Ray& camera_ray, Random& random, S& sink) noexce
 
 template <SceneGeometry G>
 template <Sink S>
-PathStep PathTracer<G>::begin(Path& path, const Ray& camera_ray, Random& random, S& sink) noexcept {
+PathStep PathTracer<G>::begin(Path& path, const Ray& camera_ray, Random& random, S& sink,
+                              std::optional<int> hero) noexcept {
   path.state = {};
   path.state.ray = camera_ray;
   path.state.vertex = camera_ray.origin;
-  if (options_.chromatic) path.state.weight.hero = std::min(static_cast<int>(random.next() * 3), 2);
+  if (options_.chromatic)
+    path.state.weight.hero = hero ? *hero : std::min(static_cast<int>(random.next() * 3), 2);
   return proceed(path, random, sink);
 }
 
@@ -40,6 +42,15 @@ PathStep PathTracer<G>::resume(Path& path, const WalkResult& walked, Random& ran
       break;
   }
   return proceed(path, random, sink);
+}
+
+template <SceneGeometry G>
+template <Sink S>
+void PathTracer<G>::escape(const Ray& camera_ray, S& sink) const noexcept {
+  State state;
+  state.ray = camera_ray;
+  state.vertex = camera_ray.origin;
+  if (!collect_lights(state, std::numeric_limits<double>::infinity(), sink)) collect_environment(state, sink);
 }
 
 template <SceneGeometry G>
@@ -177,6 +188,7 @@ void PathTracer<G>::collect_environment(const State& state, S& sink) const noexc
 // One light seen from a vertex. weigh(direction, competing, delta) is f / (competing + f), f the density of
 // the vertex's lobe or phase function, which is also its value: the balance heuristic against the path
 // finding the light by itself, over all channels; for a light without extent it is f / competing.
+// weigh.draw, where there is one, decides whether the shadow ray is worth tracing.
 template <SceneGeometry G>
 template <Sink S, class Weigh>
 void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const Weigh& weigh, const Vec2& u,
@@ -187,6 +199,11 @@ void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const 
   const PathWeight& weight = vertex.weight;
   if constexpr (requires { weigh.density(sample->direction); })
     if (!(weigh.density(sample->direction) > 0)) return;
+  Real lifted = 1;
+  if constexpr (requires { weigh.draw(*sample, vertex.light_choice); }) {
+    lifted = weigh.draw(*sample, vertex.light_choice);
+    if (lifted == 0) return;
+  }
   ++counters_.rays;
   const Rgb through =
       geometry_.transmittance({vertex.vertex, sample->direction, vertex.departure}, sample->distance);
@@ -196,7 +213,7 @@ void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const 
   const Real competing = sample->pdf * vertex.light_choice * average(weight.ratio) / mean;
   const Real part = weigh(sample->direction, competing, sample->delta);
   if (!(part > 0)) return;
-  const Rgb radiance = weight.throughput * (passed / mean) * part * sample->radiance;
+  const Rgb radiance = weight.throughput * (passed / mean) * (lifted * part) * sample->radiance;
   sink.add(detail::make_contribution(weight, radiance, light_group(scene_, light)));
 }
 

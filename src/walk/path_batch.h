@@ -18,12 +18,20 @@ concept LaneGeometry = SceneGeometry<G> && requires(const G& geometry, std::size
   { geometry.safe_region(object) } -> std::same_as<SafeRegion>;
 };
 
-/// Where a batch has its samples from and where they go. next: the number of a sample, its camera ray and
-/// the random numbers of its path; false when none is left. done: all that the sample found.
+/// What a path begins with, see PathTracer::begin.
+struct PathStart {
+  std::size_t sample = 0;  // its number, as its source has it
+  Ray ray;
+  Random random{{1, 0, 0, 0}};
+  int hero = 0;
+};
+
+/// Where a batch has its samples from and where they go. next: a sample to begin; false when none is left.
+/// done: all that the sample found.
 template <class C, class S>
-concept SampleSource = requires(C& source, std::size_t& sample, Ray& ray, Random& random, const S& sink) {
-  { source.next(sample, ray, random) } -> std::same_as<bool>;
-  source.done(sample, sink);
+concept SampleSource = requires(C& source, PathStart& start, const S& sink) {
+  { source.next(start) } -> std::same_as<bool>;
+  source.done(start.sample, sink);
 };
 
 /// Traces all the samples of a source, each into a sink of its own. What a sample finds depends on nothing
@@ -110,11 +118,13 @@ class PathBatch {
     if (interrupted_) return false;
     if (free_.empty()) free_.push_back(&slots_.emplace_back());
     Slot& slot = *free_.back();
-    Ray ray;
-    if (!source_.next(slot.sample, ray, slot.random)) return false;
+    PathStart start;
+    if (!source_.next(start)) return false;
     free_.pop_back();
+    slot.sample = start.sample;
+    slot.random = start.random;
     slot.sink = {};
-    settle(slot, tracer_.begin(slot.path, ray, slot.random, slot.sink));
+    settle(slot, tracer_.begin(slot.path, start.ray, slot.random, slot.sink, start.hero));
     return true;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "math/warp.h"
 #include "scene/mesh.h"
@@ -19,23 +20,38 @@ inline void enter_sphere(Walker& walker, Random& random) noexcept {
 }
 
 /// Diffusely through the middle of any triangle of a mesh whose body is centred on `center`.
-struct MeshEntry {
-  const Mesh& mesh;
-  DVec3 center;
+class MeshEntry {
+ public:
+  MeshEntry(const Mesh& mesh, const DVec3& center) {
+    for (const Triangle& t : mesh.triangles) {
+      const DVec3& a = mesh.positions[t[0]];
+      const DVec3& b = mesh.positions[t[1]];
+      const DVec3& c = mesh.positions[t[2]];
+      const Vec3 normal(glm::normalize(glm::cross(b - a, c - a)));
+      places_.push_back({Vec3((a + b + c) / 3.0 - center) - Real(0x1p-20) * normal, normal});
+    }
+  }
+
+  struct Place {
+    Vec3 position;
+    Vec3 normal;
+  };
+
+  [[nodiscard]] const Place& place(Random& random) const noexcept {
+    const auto count = static_cast<Real>(places_.size());
+    return places_[std::min(static_cast<std::size_t>(random.next() * count), places_.size() - 1)];
+  }
 
   void operator()(Walker& walker, Random& random) const noexcept {
-    const auto count = static_cast<Real>(mesh.triangles.size());
-    const Triangle& t =
-        mesh.triangles[std::min(static_cast<std::size_t>(random.next() * count), mesh.triangles.size() - 1)];
-    const DVec3& a = mesh.positions[t[0]];
-    const DVec3& b = mesh.positions[t[1]];
-    const DVec3& c = mesh.positions[t[2]];
-    const Vec3 normal(glm::normalize(glm::cross(b - a, c - a)));
+    const Place& at = place(random);
     const Real u1 = random.next();
     const Real u2 = random.next();
-    walker.position = Vec3((a + b + c) / 3.0 - center) - Real(0x1p-20) * normal;
-    walker.direction = make_lobe(-normal, -normal).sample({u1, u2});
+    walker.position = at.position;
+    walker.direction = make_lobe(-at.normal, -at.normal).sample({u1, u2});
   }
+
+ private:
+  std::vector<Place> places_;
 };
 
 }  // namespace meander

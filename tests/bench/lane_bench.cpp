@@ -1,6 +1,8 @@
 // The walk in lanes on one core, in the cases of walk_bench.cpp. Never a test: timings are for reading.
 #include <benchmark/benchmark.h>
 
+#include <hwy/cache_control.h>
+
 #include <chrono>
 #include <cmath>
 
@@ -27,6 +29,11 @@ struct Endless {
   [[nodiscard]] bool start(int, Walker& walker, Random& random) noexcept {
     if (left == 0) return false;
     --left;
+    // Entries are known some walks ahead, as camera rays are.
+    if constexpr (requires { launch.place(random); }) {
+      Random ahead = stream(0, 0, next + 16);
+      hwy::Prefetch(&launch.place(ahead));
+    }
     random = stream(0, 0, next++);
     walker = Walker{};
     launch(walker, random);
@@ -98,6 +105,14 @@ void lanes_mesh(benchmark::State& state, const Mesh& mesh, Real g) {
 void lanes_mesh_sphere(benchmark::State& state, Real g) { lanes_mesh(state, make_sphere_mesh(71), g); }
 void lanes_torus_knot(benchmark::State& state, Real g) { lanes_mesh(state, make_torus_knot(), g); }
 
+// What a kernel's flags cost: the same grey isotropic walk by kernels that could do more.
+void lanes_flags(benchmark::State& state, bool chromatic, bool anisotropic) {
+  LaneModel model = model_of(state, anisotropic ? Real(1e-30) : Real(0));
+  if (chromatic) model.medium.sigma_t.y *= 1 + Real(0x1p-20);
+  model.region.kind = SafeRegion::Kind::ellipsoid;
+  run_lanes(state, SphereWorld{1}, model, enter_sphere);
+}
+
 const std::vector<std::string> kArgs{"mfp_thousandths", "isa"};
 const std::vector<std::string> kMeshArgs{"mfp_thousandths", "isa", "cells"};
 
@@ -111,12 +126,19 @@ BENCHMARK_CAPTURE(lanes_sphere, isotropic, Real(0))
     ->Args({10, 3})
     ->Args({100, 3});
 BENCHMARK_CAPTURE(lanes_sphere, g08, Real(0.8))->ArgNames(kArgs)->Args({10, 3});
+BENCHMARK_CAPTURE(lanes_flags, none, false, false)->ArgNames(kArgs)->Args({10, 3})->Args({10, 2});
+BENCHMARK_CAPTURE(lanes_flags, anisotropic, false, true)->ArgNames(kArgs)->Args({10, 3})->Args({10, 2});
+BENCHMARK_CAPTURE(lanes_flags, chromatic, true, false)->ArgNames(kArgs)->Args({10, 3})->Args({10, 2});
+BENCHMARK_CAPTURE(lanes_flags, both, true, true)->ArgNames(kArgs)->Args({10, 3})->Args({10, 2});
 BENCHMARK_CAPTURE(lanes_mesh_sphere, isotropic, Real(0))
     ->ArgNames(kMeshArgs)
     ->Args({10, 3, 128})
-    ->Args({10, 3, 64});
+    ->Args({10, 3, 64})
+    ->Args({10, 3, 96});
 BENCHMARK_CAPTURE(lanes_torus_knot, isotropic, Real(0))
     ->ArgNames(kMeshArgs)
     ->Args({10, 3, 128})
     ->Args({10, 3, 64})
-    ->Args({100, 3, 128});
+    ->Args({100, 3, 128})
+    ->Args({100, 3, 64})
+    ->Args({100, 3, 32});

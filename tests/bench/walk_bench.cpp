@@ -50,11 +50,22 @@ void run_walks(benchmark::State& state, const W& world, Real g, const Start& sta
 
 void sphere(benchmark::State& state, Real g) { run_walks(state, SphereWorld{1}, g, enter_sphere); }
 
+// One ray in the tree a step.
+struct TreeWorld {
+  const MeshBody& body;
+  [[nodiscard]] Crossing first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+    return body.first_crossing_in_tree(p, d, distance);
+  }
+};
+
 void mesh(benchmark::State& state, const Mesh& mesh, Real g) {
   const Device device = make_device(1);
   DVec3 center;
   const MeshBody body(device.get(), mesh, DMat3(1), center);
-  run_walks(state, body, g, MeshEntry{mesh, center});
+  if (state.range(1) != 0)
+    run_walks(state, TreeWorld{body}, g, MeshEntry{mesh, center});
+  else
+    run_walks(state, body, g, MeshEntry{mesh, center});
 }
 
 void mesh_sphere(benchmark::State& state, Real g) {
@@ -62,12 +73,14 @@ void mesh_sphere(benchmark::State& state, Real g) {
 }  // 100 820 triangles
 void torus_knot(benchmark::State& state, Real g) { mesh(state, make_torus_knot(), g); }  // 100 000 triangles
 
+const std::vector<std::string> kMeshArgs{"mfp_thousandths", "tree"};
+
 }  // namespace
 
 BENCHMARK_CAPTURE(sphere, isotropic, Real(0))->ArgName("mfp_thousandths")->Arg(100)->Arg(30)->Arg(10);
 BENCHMARK_CAPTURE(sphere, g08, Real(0.8))->ArgName("mfp_thousandths")->Arg(100)->Arg(30)->Arg(10);
-BENCHMARK_CAPTURE(mesh_sphere, isotropic, Real(0))->ArgName("mfp_thousandths")->Arg(100)->Arg(30)->Arg(10);
-BENCHMARK_CAPTURE(torus_knot, isotropic, Real(0))->ArgName("mfp_thousandths")->Arg(100)->Arg(30)->Arg(10);
-BENCHMARK_CAPTURE(torus_knot, g08, Real(0.8))->ArgName("mfp_thousandths")->Arg(100)->Arg(30)->Arg(10);
+BENCHMARK_CAPTURE(mesh_sphere, isotropic, Real(0))->ArgNames(kMeshArgs)->ArgsProduct({{100, 30, 10}, {1, 0}});
+BENCHMARK_CAPTURE(torus_knot, isotropic, Real(0))->ArgNames(kMeshArgs)->ArgsProduct({{100, 30, 10}, {1, 0}});
+BENCHMARK_CAPTURE(torus_knot, g08, Real(0.8))->ArgNames(kMeshArgs)->ArgsProduct({{100, 30, 10}, {1, 0}});
 
 BENCHMARK_MAIN();

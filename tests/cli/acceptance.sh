@@ -118,7 +118,10 @@ PY
 # An interrupt ends the pass, keeps what was complete, and is no failure.
 "$meander" render "$scene" -o stopped.exr --spp 1000000 --width 96 --height 54 2> stopped.txt &
 process=$!
-sleep 2
+for ((i = 0; i < 600; ++i)); do
+  [ -s stopped.txt ] && break  # the first line of progress
+  sleep 0.1
+done
 kill -INT $process
 status=0
 wait $process || status=$?

@@ -232,8 +232,8 @@ expect 2 "meander: --fail-percent: is '101', but must be a number from 0 to 100 
 expect 2 "meander: --scale: is '0', but must be a number greater than 0 $help" a.pfm b.pfm --scale 0 -o no.png
 expect 2 "meander: --scale requires --output $help" a.pfm b.pfm --scale 2
 expect 2 "meander: --json excludes --quiet $help" a.pfm b.pfm --json --quiet
-expect 2 "meander: --output: is '', but must be the name of a file $help" a.pfm b.pfm -o ''
-expect 2 "meander: --mask: is '', but must be the name of a file $help" a.pfm b.pfm --mask ''
+expect 2 "meander: --output: is '', but must be the name of a file or folder $help" a.pfm b.pfm -o ''
+expect 2 "meander: --mask: is '', but must be the name of a file or folder $help" a.pfm b.pfm --mask ''
 # A report that cannot be printed is no success, of whatever verb.
 for arguments in 'compare a.pfm a.pfm' 'compare a.pfm a.pfm --json' 'compare --help' 'measure slab --tau 1 --walks 100' \
   "convert $source/scenes/wax_knot.toml --to cycles"; do

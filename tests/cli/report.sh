@@ -239,7 +239,7 @@ refuse 'none.toml: cannot open' report none.toml -o bad
 refuse 'it is not a folder' report ball.toml -o ball.toml
 refuse 'is not a folder' report ball.toml -o ball.toml/bad
 refuse '/proc/bad: the folder cannot be made' report ball.toml -o /proc/bad
-refuse 'without a name' report ball.toml -o ''
+refuse "is '', but must be the name of a file or folder" report ball.toml -o ''
 # Before the work, which would be endless.
 mkdir -p taken/index.html
 refuse 'taken/index.html: it is a directory' report ball.toml -o taken --spp 2000000000

@@ -120,4 +120,49 @@ TEST_CASE("planes show the mean, its variance, the samples, and paths weighed by
   holds(resolve_planes(film, nullptr).features, 2, 1, {3.25f, 0, 0, 0});
 }
 
+TEST_CASE(
+    "the variance of a stratified mean is what such means scatter by, whatever is left of the last round") {
+  // Three strata that differ by more than they scatter, drawn in turns from a random one on.
+  for (const int samples : {16, 24, 25, 26, 200}) {
+    double reported = 0;
+    double independent = 0;
+    double sum = 0;
+    double squares = 0;
+    constexpr int kPixels = 20000;
+    for (std::uint32_t i = 0; i < kPixels; ++i) {
+      Random random = stream(3, i, static_cast<std::uint32_t>(samples));
+      const int first = static_cast<int>(random.next() * 3);
+      Pixel pixel;
+      for (int k = 0; k < samples; ++k) {
+        const int stratum = (first + k) % 3;
+        pixel.add(Rgb(static_cast<Real>(stratum * stratum) + random.next()), stratum);
+      }
+      const double mean = pixel.mean[1];
+      sum += mean;
+      squares += mean * mean;
+      reported += pixel.variance_of_mean()[1] / kPixels;
+      independent += pixel.m2[1] / (samples - 1) / samples / kPixels;
+    }
+    const double mean = sum / kPixels;
+    const double variance = squares / kPixels - mean * mean;
+    INFO(samples, " samples");
+    CHECK(mean == doctest::Approx(5.0 / 3 + 0.5).epsilon(5e-3));
+    CHECK(reported == doctest::Approx(variance).epsilon(0.04));  // 4 standard errors of `variance`
+    CHECK(independent > 5 * variance);
+  }
+}
+
+TEST_CASE("a stratified mean of few samples has the variance of an independent one") {
+  Pixel stratified;
+  Pixel plain;
+  for (int k = 0; k + 1 < static_cast<int>(kFewestStratified); ++k) {
+    stratified.add(Rgb(static_cast<Real>(k % 3)), k % 3);
+    plain.add(Rgb(static_cast<Real>(k % 3)));
+  }
+  CHECK(stratified.variance_of_mean() == plain.variance_of_mean());
+  CHECK(stratified.mean == plain.mean);
+  stratified.add(Rgb(0), 0);
+  CHECK(stratified.variance_of_mean()[0] < plain.variance_of_mean()[0] / 10);
+}
+
 }  // namespace meander

@@ -8,6 +8,7 @@
 
 #include "render/measure.h"
 #include "render/small_scene.h"
+#include "render/tile_pass.h"
 #include "stats/image_error.h"
 
 using namespace meander;
@@ -45,6 +46,22 @@ Job scalar(Job job) {
   return job;
 }
 
+// Scalar paths with all that paths in lanes know.
+Rendering oracle_of(const Job& job, std::uint64_t spp) {
+  const std::atomic<bool> stop{false};
+  REQUIRE(prepare_walks(job, stop));
+  const Tile area = area_of(job);
+  Rendering oracle;
+  oracle.film = Film(area.x1 - area.x0, area.y1 - area.y0);
+  const CameraRays camera = camera_of(job);
+  const EmptyPixels empty(job, camera);
+  const TilePass pass{job, camera, empty, area, path_options(job, stop), spp, {}, oracle.film, false};
+  const TileResult result = pass.render({0, 0, oracle.film.width, oracle.film.height});
+  REQUIRE(result.complete);
+  oracle.counters = result.counters;
+  return oracle;
+}
+
 bool same_bytes(const Film& a, const Film& b) {
   return std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Pixel)) == 0;
 }
@@ -54,7 +71,7 @@ bool same_bytes(const Film& a, const Film& b) {
 TEST_CASE("lanes render what scalar paths render, sample by sample, on every instruction set") {
   for (const bool crowded : {false, true}) {
     Job job = make_job(crowded ? crowded_scene() : mixed_scene(), 2);
-    const Rendering oracle = render_spp(scalar(job), 16);
+    const Rendering oracle = oracle_of(job, 16);
     for (const InstructionSet set : instruction_sets()) {
       CAPTURE(name_of(set));
       job.instruction_set = set;

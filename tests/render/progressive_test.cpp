@@ -5,6 +5,7 @@
 
 #include "render/first_hits.h"
 #include "render/small_scene.h"
+#include "stats/moments.h"
 
 using namespace meander;
 
@@ -89,7 +90,7 @@ TEST_CASE("a walk without end is stopped in the middle") {
   scene.materials[0] = translucent("dense", {Rgb(100000), Rgb(1), 0}, Boundary::matched);
   const Job job = make_job(std::move(scene), 2);
   const std::atomic<bool> stop{true};
-  PathTracer<Geometry> tracer(*job.scene, *job.geometry, {Estimator::implicit, false, &stop});
+  PathTracer<Geometry> tracer(*job.scene, *job.geometry, {Estimator::implicit, false, false, &stop});
   Random random = stream(0, 0, 0);
   RadianceSink sink;
   // From inside the tube, half a million mean free paths from anywhere.
@@ -127,4 +128,42 @@ TEST_CASE("the object mask holds the pixels that lie wholly on a translucent obj
 TEST_CASE("the model is named after what the scene holds") {
   CHECK(describe_media(mixed_scene()) == "chromatic anisotropic matched diffuse");
   CHECK(describe_media(Scene{}) == "no translucent object");
+}
+
+TEST_CASE("hero channels that take turns lower the variance of a chromatic image, and the image says so") {
+  Scene scene = mixed_scene();
+  scene.film = {16, 16};
+  scene.camera = {{-1, 0, 3}, {-1, 0, 0}, {0, 1, 0}, 24, {}};
+  scene.objects.resize(1);
+  constexpr int kSeeds = 12;
+  constexpr std::uint64_t kSamples = 25;
+  std::vector<Film> films;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    Job job = make_job(scene, 2);
+    job.seed = static_cast<std::uint64_t>(seed);
+    films.push_back(render_spp(job, kSamples).film);
+  }
+  double scattered = 0;    // over what is reported
+  double independent = 0;  // likewise
+  int counted = 0;
+  for (std::size_t i = 0; i < films[0].pixels.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      Moments means;
+      double reported = 0;
+      double plain = 0;
+      for (const Film& film : films) {
+        const Pixel& pixel = film.pixels[i];
+        means.add(pixel.mean[c]);
+        reported += pixel.variance_of_mean()[c] / kSeeds;
+        plain += pixel.m2[c] / (kSamples - 1) / kSamples / kSeeds;
+      }
+      if (!(reported > 0)) continue;
+      scattered += means.variance() / reported;
+      independent += plain / reported;
+      ++counted;
+    }
+  }
+  REQUIRE(counted > 300);
+  CHECK(scattered / counted == doctest::Approx(1).epsilon(0.08));
+  CHECK(independent / counted > 1.15);
 }

@@ -144,6 +144,47 @@ TEST_CASE("a step between two points of a ball crosses nothing, a million times 
   }
 }
 
+TEST_CASE("no step into a ball that faces its cell leaves the body, wherever in the cell it starts") {
+  const Device device = make_device(2);
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    DVec3 center;
+    const MeshBody body(device.get(), c.mesh, DMat3(1), center);
+    const EmptyBalls field = make_empty_balls(body, 2, 64);
+    Random random = stream(3, 0, 0);
+    std::size_t tested = 0;
+    std::size_t left = 0;
+    for (int i = 0; i < 1'000'000; ++i) {
+      const Vec3 p = random_point(random, body.half_size());
+      const EmptyBall ball = field.from(p);
+      if (ball.promise() != EmptyBall::facing) continue;
+      const auto above = body.closest(p, {0, 0, 1}, std::numeric_limits<Real>::infinity());
+      if (!above || above->normal.z < 0) continue;
+      const Real u1 = random.next();
+      const Real u2 = random.next();
+      const Vec3 to = Vec3(ball.center) + std::sqrt(Real(ball.radius2)) * sample_sphere({u1, u2});
+      const Real length = glm::length(to - p);
+      ++tested;
+      left += body.first_crossing_in_tree(p, (to - p) / length, length).kind != CrossingKind::none;
+      const Real clear = field.clear_length(ball, glm::vec3(p), glm::vec3((to - p) / length), 1);
+      left += body.first_crossing_in_tree(p, (to - p) / length, clear).kind != CrossingKind::none;
+    }
+    CHECK(left == 0);
+    MESSAGE(c.name << ": " << tested << " steps");
+    if (c.covered > 0) CHECK(tested > 1000);
+  }
+}
+
+TEST_CASE("the finer the walk, the finer the field, and none for walks that leave at once") {
+  const Device device = make_device(1);
+  DVec3 center;
+  const MeshBody body(device.get(), make_sphere_mesh(4), DMat3(3), center);
+  CHECK(cells_for(body, 4) == 0);
+  CHECK(cells_for(body, 1) == 64);
+  CHECK(cells_for(body, Real(0.02)) == 96);
+  CHECK(cells_for(body, Real(1e-6)) == 128);
+}
+
 TEST_CASE("the balls are the same on one thread and on two") {
   const Device device = make_device(2);
   DVec3 center;

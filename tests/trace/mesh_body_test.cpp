@@ -120,3 +120,73 @@ TEST_CASE("a mirroring map keeps the outside outside") {
                       center);
   CHECK(body.first_crossing({0, 0, 0}, {1, 0, 0}, kFar).normal.x == doctest::Approx(1));
 }
+
+namespace {
+
+// How much of [0, distance] along a ray is in a box.
+double clip(const DVec3& low, const DVec3& high, const Vec3& o, const Vec3& d, double distance) {
+  double near = 0;
+  double far = distance;
+  for (int k = 0; k < 3; ++k) {
+    const double a = (low[k] - o[k]) / d[k];
+    const double b = (high[k] - o[k]) / d[k];
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b));
+  }
+  return std::max(far - near, 0.0);
+}
+
+}  // namespace
+
+TEST_CASE("the length of a ray inside two boxes is that inside the exact ones, from inside and outside") {
+  const Device device = make_device(1);
+  const DVec3 lows[2] = {{-1, -1, -1}, {0.25, -1, -1}};
+  const DVec3 highs[2] = {{0.125, 1, 1}, {1, 1, 1}};
+  Mesh mesh = make_box(lows[0], highs[0]);
+  append(mesh, make_box(lows[1], highs[1]));
+  DVec3 center;
+  const MeshBody body(device.get(), mesh, DMat3(3), center);
+  int doubted = 0;
+  constexpr int kRays = 50000;
+  for (std::uint32_t i = 0; i < kRays; ++i) {
+    Random random = stream(5, 0, i);
+    const Real x = random.next();
+    const Real y = random.next();
+    const Real z = random.next();
+    const Vec3 o = Real(4.5) * Vec3(2 * x - 1, 2 * y - 1, 2 * z - 1);
+    const Vec3 d = random_direction(random);
+    const double distance = i % 4 == 0 ? double{kFar} : 8.0 * random.next();
+    const auto length = body.length_inside(o, d, distance, false);
+    if (!length && ++doubted > 0) continue;
+    const double exact = clip(3.0 * lows[0], 3.0 * highs[0], o, d, distance) +
+                         clip(3.0 * lows[1], 3.0 * highs[1], o, d, distance);
+    CHECK(std::abs(*length - exact) < 1e-5);
+  }
+  CHECK(doubted < kRays / 50);
+}
+
+TEST_CASE("a ray aimed at an edge or a corner, or past a hole, has the right length inside or none") {
+  const Device device = make_device(1);
+  DVec3 center;
+  for (Mesh mesh : {make_torus_knot(200, 24), make_box({-1, -1, -1}, {1, 1, 1}), make_sphere_mesh(3)}) {
+    const MeshBody body(device.get(), mesh, DMat3(1), center);
+    const double longest = 2 * double{glm::length(body.half_size())};
+    for (std::uint32_t i = 0; i < 100000; ++i) {
+      Random random = stream(6, 0, i);
+      const Triangle& t = mesh.triangles[random.next_bits() % mesh.triangles.size()];
+      const Vec3 a(mesh.positions[t[0]] - center);
+      const Vec3 b(mesh.positions[t[1]] - center);
+      const Vec3 target = random.next() < Real(0.5) ? a : Real(0.5) * (a + b);
+      const Vec3 normal = glm::normalize(glm::cross(b - a, Vec3(mesh.positions[t[2]] - center) - a));
+      const Vec3 any = random_direction(random);
+      const Vec3 d = glm::normalize(any - (1 - Real(1e-3) * random.next()) * glm::dot(any, normal) * normal);
+      // A surface met once only would make it as long as the way to it.
+      const auto length = body.length_inside(target - static_cast<Real>(2 * longest) * d, d, kFar, true);
+      if (length) REQUIRE((*length > -1e-5 && *length < longest));
+    }
+  }
+  Mesh open = make_box({-1, -1, -1}, {1, 1, 1});
+  open.triangles.resize(10);  // the far side is missing
+  const MeshBody body(device.get(), open, DMat3(1), center);
+  CHECK_FALSE(body.length_inside({Real(0.1), Real(0.3), -3}, {0, 0, 1}, kFar, true));
+}

@@ -1,0 +1,73 @@
+// How much of a line lies inside a closed mesh, in one traversal.
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "trace/mesh_body.h"
+
+namespace meander {
+namespace {
+
+// Where a line meets the surface, in any order; `leaves` where it goes outward there.
+struct Meeting {
+  float distance;
+  bool leaves;
+};
+
+// More meetings than that are left to a walk from one to the next.
+constexpr std::size_t kMost = 16;
+
+// So near to an edge of the triangle, in barycentric coordinates, or at so small an angle to it a line may by
+// rounding meet both neighbours or none.
+constexpr float kDoubtful = 0x1p-10f;
+
+// What the traversal carries. Embree hands the filter a pointer to the first member.
+struct Gathering {
+  RTCIntersectContext context;
+  std::array<Meeting, kMost> met;
+  std::size_t count = 0;
+  bool doubtful = false;
+};
+
+// Takes every hit down and refuses it, so that the traversal goes on to the next; a doubtful one ends it.
+void gather(const RTCFilterFunctionNArguments* args) {
+  auto& gathering = *reinterpret_cast<Gathering*>(args->context);
+  const auto* ray = reinterpret_cast<const RTCRay*>(args->ray);
+  const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
+  const glm::vec3 normal(hit->Ng_x, hit->Ng_y, hit->Ng_z);
+  const float along = glm::dot(glm::vec3(ray->dir_x, ray->dir_y, ray->dir_z), normal);
+  const float inward = std::min({hit->u, hit->v, 1 - hit->u - hit->v});
+  gathering.doubtful = gathering.count == kMost || !(inward > kDoubtful) ||
+                       !(along * along > kDoubtful * kDoubtful * glm::dot(normal, normal));
+  if (gathering.doubtful) return;
+  gathering.met[gathering.count++] = {ray->tfar, along > 0};
+  args->valid[0] = 0;
+}
+
+}  // namespace
+
+std::optional<double> MeshBody::length_inside(const Vec3& o, const Vec3& d, double distance,
+                                              bool outside) const noexcept {
+  const glm::vec3 p(o * inverse_scale_);
+  const glm::vec3 v(d);
+  RTCRay ray{p.x, p.y, p.z, 0, v.x, v.y, v.z, 0, std::numeric_limits<float>::infinity(), ~0u, 0, 0};
+  Gathering gathering;
+  rtcInitIntersectContext(&gathering.context);
+  gathering.context.filter = gather;
+  rtcOccluded1(scene_.get(), &gathering.context, &ray);
+  if (gathering.doubtful || (outside && gathering.count % 2 != 0)) return std::nullopt;
+  const auto end = gathering.met.begin() + static_cast<std::ptrdiff_t>(gathering.count);
+  std::sort(gathering.met.begin(), end,
+            [](const Meeting& a, const Meeting& b) { return a.distance < b.distance; });
+  const double reach = distance * double{inverse_scale_};
+  double inside = 0;
+  bool leaves = true;  // what the next one back from the far end does: the line ends outside
+  for (auto at = end; at != gathering.met.begin(); leaves = !leaves) {
+    --at;
+    if (at->leaves != leaves) return std::nullopt;
+    inside += (leaves ? 1 : -1) * std::min(double{at->distance}, reach);
+  }
+  return inside * double{scale_};
+}
+
+}  // namespace meander

@@ -1,0 +1,36 @@
+// What SIMD asks of packets: the first way out along a short ray, and the nearest triangle.
+#pragma once
+
+#include "trace/surface_cells.h"
+
+namespace meander {
+
+/// From `origin` along a unit direction, all of size about 1.
+struct ShortRay {
+  glm::vec3 origin;
+  glm::vec3 direction;
+  float distance;
+};
+
+/// `distance` along the ray to the first triangle that it leaves by; `point` is there, where the triangle's
+/// second and third corners weigh u and v; `normal` has that triangle's direction outward, and any length.
+/// `unknown`: the ray is too long for the grid, or starts beyond it.
+struct ShortExit {
+  enum class Kind { none, exit, unknown } kind = Kind::unknown;
+  float distance = 0;
+  float u = 0;
+  float v = 0;
+  glm::vec3 point{0};
+  glm::vec3 normal{0};
+  std::uint32_t triangle = 0;
+};
+
+/// Watertight as Embree's robust test is: a ray that passes an edge meets one of the two triangles there,
+/// whose edge functions are the same numbers with the sign turned. The same bits on every instruction set.
+[[nodiscard]] ShortExit find_exit(const Packets& packets, const SurfaceCells& cells,
+                                  const ShortRay& ray) noexcept;
+
+/// Asks for the memory that a ray from here will need.
+void prefetch_exit(const Packets& packets, const SurfaceCells& cells, const glm::vec3& origin) noexcept;
+
+}  // namespace meander

@@ -1,0 +1,168 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "math/random.h"
+#include "math/warp.h"
+#include "trace/mesh_body.h"
+#include "walk/random_walk.h"
+
+using namespace meander;
+
+namespace {
+
+struct Case {
+  std::string name;
+  Mesh mesh;
+};
+
+Mesh make_box(const DVec3& half) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  for (DVec3& p : mesh.positions) p *= half;
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+// A closed box with a cavity: thin walls, two of them within a cell.
+Mesh make_shell(double thickness) {
+  Mesh shell = make_box(DVec3(1));
+  Mesh hole = make_box(DVec3(1 - thickness));
+  shell.positions.insert(shell.positions.end(), hole.positions.begin(), hole.positions.end());
+  for (Triangle t : hole.triangles) shell.triangles.push_back({t[0] + 8, t[2] + 8, t[1] + 8});
+  return shell;
+}
+
+// Triangles of very different sizes that meet at sharp edges: a fan of needles about a long axis.
+Mesh make_spindle(int sides) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 1}, {0, 0, -1}};
+  for (int i = 0; i < sides; ++i) {
+    const double t = 2 * glm::pi<double>() * i / sides;
+    const double r = i % 2 ? 0.02 : 0.2;
+    mesh.positions.emplace_back(r * std::cos(t), r * std::sin(t), 0.1 * std::sin(5 * t));
+  }
+  for (int i = 0; i < sides; ++i) {
+    const auto a = static_cast<std::uint32_t>(2 + i);
+    const auto b = static_cast<std::uint32_t>(2 + (i + 1) % sides);
+    mesh.triangles.push_back({0, a, b});
+    mesh.triangles.push_back({1, b, a});
+  }
+  return mesh;
+}
+
+// Its tips are so sharp that where a ray leaves them is rounding: tested for leaks alone.
+constexpr const char* kNeedles = "needles";
+
+std::vector<Case> cases() {
+  return {{"sphere", make_sphere_mesh(71)},      {"coarse sphere", make_sphere_mesh(3)},
+          {"knot", make_torus_knot()},           {"box", make_box({1, 0.5, 0.25})},
+          {"shell", make_shell(0.01)},           {"thin shell", make_shell(1e-4)},
+          {"needle", make_box({1, 1e-3, 1e-3})}, {"spindle", make_spindle(64)},
+          {kNeedles, make_spindle(1000)}};
+}
+
+Vec3 random_direction(Random& random) {
+  const Real u1 = random.next();
+  const Real u2 = random.next();
+  return sample_sphere({u1, u2});
+}
+
+// A point of the surface, or near to it: on a corner, on an edge or on a face, moved by up to `away`.
+Vec3 random_place(const Mesh& mesh, const DVec3& center, Real away, Random& random) {
+  const Triangle& t = mesh.triangles[random.next_bits() % mesh.triangles.size()];
+  double u = random.next();
+  double v = random.next();
+  const Real kind = random.next();
+  if (kind < Real(0.5)) v = 0;
+  if (kind < Real(0.2)) u = 0;
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  const DVec3& a = mesh.positions[t[0]];
+  const DVec3 p = a + u * (mesh.positions[t[1]] - a) + v * (mesh.positions[t[2]] - a) - center;
+  const Real length = away * random.next();
+  return Vec3(p) + length * random_direction(random);
+}
+
+bool alike(const Crossing& a, const Crossing& b, const Vec3& d) {
+  if (a.kind != b.kind) return false;
+  const Real slack = Real(1e-6) * (1 + 1 / std::max(std::abs(glm::dot(a.normal, d)), Real(1e-4)));
+  return std::abs(a.distance - b.distance) <= slack && glm::length(a.point - b.point) <= slack + Real(1e-6);
+}
+
+// Whether the tree itself changes its mind when the step is moved by about the rounding of its place.
+bool is_at_an_edge(const MeshBody& body, const Vec3& p, const Vec3& d, Real distance, Random& random) {
+  const Crossing tree = body.first_crossing_in_tree(p, d, distance);
+  for (int i = 0; i < 256; ++i) {
+    const Vec3 moved = p + Real(0x1p-21) * random_direction(random);
+    const Vec3 turned = glm::normalize(d + Real(0x1p-21) * random_direction(random));
+    if (!alike(tree, body.first_crossing_in_tree(moved, turned, distance), d)) return true;
+  }
+  return false;
+}
+
+struct NoEvents {
+  void segment(const Walker&, Real) const noexcept {}
+  void absorbed(const Rgb&) const noexcept {}
+  void scattered(const Walker&) const noexcept {}
+  [[nodiscard]] bool stop() const noexcept { return false; }
+};
+
+}  // namespace
+
+TEST_CASE("short steps cross where the tree says, also at edges and corners") {
+  const Device device = make_device(1);
+  for (const Case& c : cases()) {
+    if (c.name == kNeedles) continue;
+    CAPTURE(c.name);
+    DVec3 center;
+    const MeshBody body(device.get(), c.mesh, DMat3(1), center);
+    Random random = stream(1, 0, 0);
+    int differ = 0;
+    int wrong = 0;
+    for (int i = 0; i < 300'000; ++i) {
+      const Vec3 p = random_place(c.mesh, center, i % 2 ? Real(0.02) : Real(1e-3), random);
+      const Vec3 to = random_place(c.mesh, center, Real(1e-6), random);
+      const bool aims = i % 3 == 0 && glm::length(to - p) > Real(1e-3);  // at an edge, often
+      const Vec3 d = aims ? glm::normalize(to - p) : random_direction(random);
+      const Real distance = aims ? 2 : Real(-0.02) * std::log(1 - random.next());
+      if (alike(body.first_crossing_in_tree(p, d, distance), body.first_crossing(p, d, distance), d))
+        continue;
+      ++differ;
+      wrong += !is_at_an_edge(body, p, d, distance, random);
+    }
+    MESSAGE(c.name << ": " << differ << " of 300000 differ");
+    CHECK(differ < 1000);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("a closed mesh leaks nothing") {
+  const Device device = make_device(1);
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    DVec3 center;
+    const MeshBody body(device.get(), c.mesh, DMat3(1), center);
+    const WalkModel model{{Rgb(30), Rgb(1), 0}, Estimator::implicit};
+    NoEvents events;
+    int leaks = 0;
+    for (std::uint32_t i = 0; i < 20'000; ++i) {
+      Random random = stream(2, 0, i);
+      Walker walker;
+      const Triangle& t = c.mesh.triangles[random.next_bits() % c.mesh.triangles.size()];
+      const DVec3& a = c.mesh.positions[t[0]];
+      const DVec3& b = c.mesh.positions[t[1]];
+      const DVec3& q = c.mesh.positions[t[2]];
+      const Vec3 normal(glm::normalize(glm::cross(b - a, q - a)));
+      walker.position = Vec3((a + b + q) / 3.0 - center) - Real(0x1p-20) * normal;
+      walker.direction = random_direction(random);
+      if (glm::dot(walker.direction, normal) > 0) walker.direction = -walker.direction;
+      leaks += random_walk(body, model, walker, random, events).end == WalkEnd::leaked;
+    }
+    CHECK(leaks == 0);
+  }
+}
