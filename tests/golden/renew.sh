@@ -2,8 +2,8 @@
 # Renews golden images: renew.sh BUILD REASON [NAME…], all of them or those of that name; BUILD is a build folder
 # (build/release). Commit the result. Each renewal is a row of RECORD.csv: what, when, by which version and commit, with
 # which seed, samples a pixel and walk, how long it took, and why. The statistical ones are rendered by the scalar walk, the
-# oracle, with 16 times the samples of the test that takes most, and a seed that no test has: all of them in about ten
-# minutes of two cores (the column `seconds`). The drawn ones take a minute.
+# oracle, with 8 times the samples of the test that takes most, and a seed that no test has: the column `seconds` tells what
+# that takes. The drawn ones take seconds.
 set -euo pipefail
 fail() { echo "renew.sh: $*" >&2; exit 2; }
 [[ $# -ge 2 && -n ${2//[[:space:]]/} ]] || fail "usage: renew.sh BUILD REASON [NAME…]; a golden image changes only for a reason"
@@ -11,8 +11,8 @@ build=$(realpath "$1") reason=$2
 shift 2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 meander=$build/src/app/meander draw=$build/tests/golden/golden_draw
-for program in "$meander" "$draw"; do [[ -x $program ]] || fail "$program is not there: build it first"; done
-seed=1000003 factor=16 largest=65536
+seed=1000003 factor=8 largest=65536
+[[ -x $meander ]] || fail "$meander is not there: build it first"
 commit=$(git -C "$here" describe --always --dirty=+ 2>/dev/null || echo unknown)
 version="$("$meander" --version) $commit"
 
@@ -37,14 +37,15 @@ trap 'rm -rf "$work"' EXIT
 cd "$here"
 for name in $statistical; do
   wanted "$name" || continue
-  spp=$(awk -F, -v scene="$name" -v factor=$factor '$1 == scene && $4 > most { most = $4 } END { print factor * most }' statistical.csv)
+  spp=$(awk -F, -v scene="$name" -v factor=$factor '$1 == scene && $5 > most { most = $5 } END { print factor * most }' statistical.csv)
   start=$(date +%s)
-  nice -n 10 "$meander" render "scenes/$name.toml" -o "$work/$name.exr" --spp "$spp" --seed $seed --walk scalar --estimator implicit --quiet
+  "$meander" render "scenes/$name.toml" -o "$work/$name.exr" --spp "$spp" --seed $seed --walk scalar --estimator implicit --quiet
   keep statistical "$name" "$work/$name.exr" $seed "$spp" scalar $(($(date +%s) - start))
 done
 for name in $drawn; do
   wanted "$name" || continue
+  [[ -x $draw ]] || fail "$draw is not there: build it first"
   start=$(date +%s)
-  nice -n 10 bash draw.sh "$meander" "$draw" "$name" "$work/$name.png"
+  "$draw" "$name" "$work/$name.png"
   keep drawn "$name" "$work/$name.png" - - - $(($(date +%s) - start))
 done
