@@ -13,7 +13,8 @@ namespace meander {
 /// - "shift": every pixel stands one to the right, the first column twice;
 /// - "blur": colours are the mean over 3 x 3 pixels, fewer at the edge. The variances do not shrink with it,
 ///   which only makes it harder to see;
-/// - "block", where there are variances: a block of 8 x 8 in the middle is brighter by ten standard errors of its
+/// - "block", where there are variances: a block of 8 x 8 in the middle is brighter by ten standard errors of
+/// its
 ///   sum, which no value of it shows;
 /// - "tone": colours went through the filmic tone curve.
 /// False when there is no fault of that name.

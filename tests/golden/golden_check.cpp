@@ -134,8 +134,8 @@ int check_drawn(const std::vector<std::string>& args) {
   const bool same_size = drawn.width == golden.width && drawn.height == golden.height;
   const LevelDifference found = same_size ? level_difference(drawn, golden, tolerance) : LevelDifference{};
   const std::string verdict = same_size ? "largest difference " + std::to_string(found.largest) +
-                                              " levels, allowed " + args[3] + "; pixels beyond that: " +
-                                              std::to_string(found.beyond)
+                                              " levels, allowed " + args[3] +
+                                              "; pixels beyond that: " + std::to_string(found.beyond)
                                         : std::string("the sizes differ");
   std::printf("%s: %s\n", fs::path(args[1]).stem().c_str(), verdict.c_str());
   if (same_size && found.beyond == 0) return 0;
@@ -156,7 +156,8 @@ int make_fault(const std::vector<std::string>& args) {
   const bool drawn = loaded.encoded;
   Image image = drawn ? loaded.image : linear_picture(loaded, args[1]);
   if (!plant_fault(image, args[0])) {
-    std::fprintf(stderr, "golden_check: no fault is called '%s': pixel, shift, blur, block (of an EXR) or tone\n",
+    std::fprintf(stderr,
+                 "golden_check: no fault is called '%s': pixel, shift, blur, block (of an EXR) or tone\n",
                  args[0].c_str());
     return 2;
   }
@@ -179,7 +180,8 @@ int run(const std::vector<std::string>& args) {
   if (verb == "drawn" && rest.size() == 4) return check_drawn(rest);
   if (verb == "fault" && rest.size() == 3) return make_fault(rest);
   std::fputs(
-      "usage: golden_check statistical RENDER.exr GOLDEN.exr FOLDER TESTS | drawn DRAWN.png GOLDEN.png FOLDER "
+      "usage: golden_check statistical RENDER.exr GOLDEN.exr FOLDER TESTS | drawn DRAWN.png GOLDEN.png "
+      "FOLDER "
       "TOLERANCE | fault NAME IN OUT\n",
       stderr);
   return 2;

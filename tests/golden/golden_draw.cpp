@@ -1,5 +1,5 @@
-// Draws one picture of drawn.csv through OpenGL on OSMesa, from numbers that are made here, so that no walk has
-// a part in it. golden_draw NAME OUT.png [FAULT]
+// Draws one picture of drawn.csv through OpenGL on OSMesa, from numbers that are made here, so that no walk
+// has a part in it. golden_draw NAME OUT.png [FAULT]
 //   ramp_srgb, ramp_filmic     a tone curve on a ramp
 //   view_NAME                  a film in a view of display/views.h
 //   compare_NAME               two films in a comparison of the same
@@ -90,7 +90,7 @@ Image8 draw_comparison(Comparison comparison, Tone tone) {
 Image8 draw_interface_picture(const UiModel& model, std::optional<PanelName> panel) {
   const Offscreen context(1, 1);
   InterfaceView view(context.functions());
-  TestWindow window(panel ? kPanelWidth : 960, panel ? 500 : 540);
+  TestWindow window(panel ? kPanelWidth : 800, 500);
   window.model = model;
   window.model.overlay.film = fitted_area(window.layout().image, 960, 540);
   const FontBitmap font = window.interface.font();
