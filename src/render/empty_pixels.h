@@ -17,10 +17,10 @@ class EmptyPixels {
   [[nodiscard]] bool contains(int x, int y) const noexcept;
 
  private:
-  // A bounding sphere as the camera sees it: in perspective a cone, else a cylinder.
+  // A bounding sphere as the camera sees it: what the line through a pixel's middle keeps off its centre.
   struct Outline {
-    DVec3 toward;  // unit, and the cosine of the angle to it; or from the camera, and the squared distance
-    double limit;
+    DVec3 center;  // from the camera
+    double squared;
   };
 
   [[nodiscard]] static Outline outline(const CameraRays& camera, const DVec3& center, double radius,

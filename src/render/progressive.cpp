@@ -49,8 +49,7 @@ CameraRays camera_of(const Job& job) noexcept {
 }
 
 Ray film_ray(const Job& job, const CameraRays& camera, double x, double y) noexcept {
-  const FilmSize& film = job.scene->film;
-  return camera.at(x * job.scale / film.width, y * job.scale / film.height);
+  return camera.at(x * job.scale * camera.pixel_width, y * job.scale * camera.pixel_height);
 }
 
 Random sample_stream(const Job& job, int x, int y, std::uint64_t k) noexcept {

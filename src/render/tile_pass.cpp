@@ -1,6 +1,7 @@
 #include "render/tile_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -30,14 +31,15 @@ struct SamplePlace {
   std::uint64_t k;
 };
 
-PathStart start_of(const TilePass& pass, const SamplePlace& at) noexcept {
-  PathStart start;
-  start.random = sample_stream(pass.job, at.x, at.y, at.k);
-  const double u = start.random.next();
-  const double v = start.random.next();
-  start.ray = film_ray(pass.job, pass.camera, at.x + u, at.y + v);
-  if (pass.options.chromatic) start.hero = sample_hero(pass.job, at.x, at.y, at.k);
-  return start;
+// A sample of a pixel, but for what its ray meets.
+BatchSample sample_at(const TilePass& pass, const SamplePlace& at) noexcept {
+  BatchSample sample;
+  sample.random = sample_stream(pass.job, at.x, at.y, at.k);
+  const double u = sample.random.next();
+  const double v = sample.random.next();
+  sample.start.ray = film_ray(pass.job, pass.camera, at.x + u, at.y + v);
+  if (pass.options.chromatic) sample.start.hero = sample_hero(pass.job, at.x, at.y, at.k);
+  return sample;
 }
 
 void add_sample(const TilePass& pass, const SamplePlace& at, const SampleSink& sink, Pixel& pixel,
@@ -68,15 +70,25 @@ struct TileSamples {
   std::size_t count;    // of them
   std::vector<SampleSink> found;
   std::size_t drawn = 0;
+  static constexpr std::size_t kTogether = 16;
+  std::array<BatchSample, kTogether> ahead = {};
 
   [[nodiscard]] SamplePlace place(std::size_t sample) const noexcept {
     const FilmPlace& at = pixels[sample / count];
     return {pass.area.x0 + at.x, pass.area.y0 + at.y, first + sample % count};
   }
-  [[nodiscard]] bool next(PathStart& start) noexcept {
+  // They are made some at a time, so that the divisions and roots of one do not wait for those of another.
+  [[nodiscard]] bool next(BatchSample& sample) noexcept {
     if (drawn == found.size()) return false;
-    start = start_of(pass, place(drawn));
-    start.sample = drawn++;
+    const std::size_t in_row = drawn % kTogether;
+    if (in_row == 0) {
+      const std::size_t count_ahead = std::min(kTogether, found.size() - drawn);
+      for (std::size_t i = 0; i < count_ahead; ++i) ahead[i] = sample_at(pass, place(drawn + i));
+      for (std::size_t i = 0; i < count_ahead; ++i)
+        ahead[i].start.hit = pass.job.geometry->closest_hit(ahead[i].start.ray);
+    }
+    sample = ahead[in_row];
+    sample.number = drawn++;
     return true;
   }
   void done(std::size_t sample, const SampleSink& sink) noexcept { found[sample] = sink; }
@@ -101,7 +113,7 @@ Pixel render_empty(const TilePass& pass, const FilmPlace& at, const PathTracer<G
     const SamplePlace place{pass.area.x0 + at.x, pass.area.y0 + at.y, pass.before.spp + k};
     if (k == 0 || !uniform) {
       sink = {};
-      tracer.escape(start_of(pass, place).ray, sink);
+      tracer.escape(sample_at(pass, place).start.ray, sink);
     }
     add_sample(pass, place, sink, pixel, result);
   }
@@ -113,9 +125,9 @@ bool render_scalar(const TilePass& pass, const FilmPlace& at, PathTracer<Geometr
   Pixel pixel = pixel_before(pass, at.x, at.y);
   for (std::uint64_t k = 0; k < pass.samples; ++k) {
     const SamplePlace place{pass.area.x0 + at.x, pass.area.y0 + at.y, pass.before.spp + k};
-    PathStart start = start_of(pass, place);
+    BatchSample sample = sample_at(pass, place);
     SampleSink sink;
-    if (!tracer.trace(start.ray, start.random, sink, start.hero)) return false;
+    if (!tracer.trace(sample.start.ray, sample.random, sink, sample.start.hero)) return false;
     add_sample(pass, place, sink, pixel, result);
   }
   pass.after.at(at.x, at.y) = pixel;

@@ -37,13 +37,13 @@ struct UnitSphere {
   template <class T>
   [[nodiscard]] static std::optional<Interval<T>> inside(const glm::vec<3, T>& o,
                                                          const glm::vec<3, T>& d) noexcept {
-    const T dd = glm::dot(d, d);
-    const T middle = -glm::dot(o, d) / dd;
+    const T inverse = 1 / glm::dot(d, d);
+    const T middle = -glm::dot(o, d) * inverse;
     const glm::vec<3, T> closest = o + middle * d;
     const T discriminant = 1 - glm::dot(closest, closest);
     if (!(discriminant >= 0)) return std::nullopt;
-    const T half = std::sqrt(discriminant / dd);
-    const T product = (glm::dot(o, o) - 1) / dd;
+    const T half = std::sqrt(discriminant * inverse);
+    const T product = (glm::dot(o, o) - 1) * inverse;
     const T outer = middle + std::copysign(half, middle);
     const T inner = outer != 0 ? product / outer : -outer;
     const T near = std::min(outer, inner);

@@ -11,8 +11,9 @@ CameraRays make_camera_rays(const Camera& camera, int width, int height) noexcep
   const double full_height = camera.orthographic_height ? *camera.orthographic_height
                                                         : 2 * std::tan(glm::radians(camera.vertical_fov) / 2);
   const double aspect = static_cast<double>(width) / height;
-  return {camera.look_from, right * (full_height * aspect), up * full_height, forward,
-          camera.orthographic_height.has_value()};
+  return {camera.look_from, right * (full_height * aspect),         up * full_height,
+          forward,          camera.orthographic_height.has_value(), 1.0 / width,
+          1.0 / height};
 }
 
 DMat3 linear_part(const Transform& t) {

@@ -30,6 +30,8 @@ struct CameraRays {
   DVec3 up;       // from the bottom to the top edge
   DVec3 forward;  // unit
   bool orthographic;
+  double pixel_width;  // of the film, as fractions of it
+  double pixel_height;
 
   /// x and y in [0, 1] across the film, y down from the top edge. The direction is unit length.
   [[nodiscard]] Ray at(double x, double y) const noexcept {

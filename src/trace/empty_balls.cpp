@@ -153,14 +153,6 @@ void put(const Fill& fill, EmptyBalls& grid) {
 
 }  // namespace
 
-int cells_for(const MeshBody& body, Real mean_free_path) noexcept {
-  constexpr int kStep = 32;
-  const Real half = largest(body.half_size());
-  if (!(mean_free_path < half)) return 0;
-  const Real steps = 2 * half / (3 * mean_free_path * kStep);
-  return kStep * static_cast<int>(std::clamp(std::round(steps), Real(2), Real(4)));
-}
-
 EmptyBalls make_empty_balls(const MeshBody& body, int threads, int cells) {
   EmptyBalls grid;
   const glm::vec3 half(body.half_size());

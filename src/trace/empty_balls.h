@@ -6,12 +6,11 @@
 
 namespace meander {
 
-/// Cells along the longest side of the bounds.
+/// Cells along the longest side of the bounds, whatever the mean free path: what a finer field saves in rays
+/// it loses in memory that is far away. Walks a second over those with 64 cells, one core: 100 820-triangle
+/// sphere at a mean free path of 0.01, 96 cells 0.90, 128 0.89; torus knot at 0.01, 128 0.96; at 0.1, 32
+/// cells 0.97, 128 0.87.
 inline constexpr int kDefaultCells = 64;
-
-/// The number of cells that suits walks of a mean free path (in scene units): cells of about three of them,
-/// 64 to 128. 0 where a walk leaves after a step or two, and balls spare it nothing.
-[[nodiscard]] int cells_for(const MeshBody& body, Real mean_free_path) noexcept;
 
 /// Balls in the body's own coordinates, each smaller than the distance from its centre to the surface by more
 /// than the rounding of a step in it. A cell that the surface crosses holds a ball that touches it (shrunk as

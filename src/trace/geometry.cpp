@@ -288,27 +288,27 @@ bool Geometry::leaves_for_good(std::size_t object, const Ray& ray) const noexcep
          glm::dot(ray.departure.offset, ray.direction) > 0;
 }
 
-std::optional<SurfaceHit> Geometry::hit_within(std::size_t object, const Ray& ray,
-                                               double distance) const noexcept {
-  const auto hit =
-      approach(object, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
-        return first_hit(shape, seen, placement, distance);
-      });
-  if (!hit) return std::nullopt;
-  return SurfaceHit{object,      hit->distance,       hit->point,
-                    hit->normal, hit->shading_normal, glm::dot(hit->normal, ray.direction) < 0};
+// Puts the first surface of one object in the place of a farther one.
+void Geometry::hit_before(std::size_t object, const Ray& ray,
+                          std::optional<SurfaceHit>& closest) const noexcept {
+  approach(object, ray, [&](const auto& shape, const Approach& seen, const Placement& placement) {
+    const auto hit = first_hit(shape, seen, placement, closest ? closest->distance : kInfinity);
+    if (!hit) return;
+    closest = SurfaceHit{object,      hit->distance,       hit->point,
+                         hit->normal, hit->shading_normal, glm::dot(hit->normal, ray.direction) < 0};
+  });
 }
 
 std::optional<SurfaceHit> Geometry::hit_object(std::size_t object, const Ray& ray) const noexcept {
-  return hit_within(object, ray, kInfinity);
+  std::optional<SurfaceHit> hit;
+  hit_before(object, ray, hit);
+  return hit;
 }
 
 std::optional<SurfaceHit> Geometry::closest_hit(const Ray& ray) const noexcept {
   std::optional<SurfaceHit> closest;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (leaves_for_good(i, ray)) continue;
-    if (const auto hit = hit_within(i, ray, closest ? closest->distance : kInfinity)) closest = hit;
-  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (!leaves_for_good(i, ray)) hit_before(i, ray, closest);
   return closest;
 }
 

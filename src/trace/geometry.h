@@ -119,11 +119,10 @@ class Geometry {
                                      const Geometry* previous);
   [[nodiscard]] SharedMesh find_mesh(const std::shared_ptr<const Mesh>& mesh, const DMat3& map) const;
   [[nodiscard]] static bool holds_light(const Body& body, const Scene& scene) noexcept;
-  [[nodiscard]] std::optional<SurfaceHit> hit_within(std::size_t object, const Ray& ray,
-                                                     double distance) const noexcept;
+  void hit_before(std::size_t object, const Ray& ray, std::optional<SurfaceHit>& closest) const noexcept;
   [[nodiscard]] bool leaves_for_good(std::size_t object, const Ray& ray) const noexcept;
   template <class F>
-  [[nodiscard]] auto approach(std::size_t object, const Ray& ray, const F& f) const noexcept;
+  auto approach(std::size_t object, const Ray& ray, const F& f) const noexcept;
 
   int threads_;
   std::shared_ptr<RTCDeviceTy> device_;  // made with the first mesh that needs one

@@ -53,8 +53,9 @@ class LaneWalks {
     while (in_use_ > 0) {
       if (client_.stop()) return false;
       advance_lanes(set_, model_, lanes_, kLanes, kLanes - in_use_ + std::min(kRestingLanes, in_use_));
-      trace_rays();
-      for (int lane = 0; lane < kLanes; ++lane) see_to(lane);
+      find_resting();
+      if constexpr (kTogether) begin_rays();
+      for (int i = 0; i < resting_count_; ++i) see_to(resting_[i]);
       give_balls();
     }
     return true;
@@ -111,24 +112,29 @@ class LaneWalks {
     return {lanes_.position[0][lane], lanes_.position[1][lane], lanes_.position[2][lane]};
   }
 
-  // Rays are traced for all resting lanes together where the world can, so that it waits for memory once.
+  // Rays are begun for all resting lanes together where the world can, so that it waits for memory once.
   static constexpr bool kTogether = requires(const W& world, const Vec3& p, Real t) {
     world.prefetch(p);
     world.finish_crossing(world.begin_crossing(p, p, t));
   };
 
-  void trace_rays() noexcept {
-    if constexpr (kTogether) {
-      int crossing[kLanes];
-      int count = 0;
-      for (int lane = 0; lane < kLanes; ++lane)
-        if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::crossing)) crossing[count++] = lane;
-      for (int i = 0; i < count; ++i) world_.prefetch(Vec3(position(crossing[i])));
-      for (int i = 0; i < count; ++i) begin_ray(crossing[i]);
-    } else {
-      for (int lane = 0; lane < kLanes; ++lane)
-        if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::crossing)) begin_ray(lane);
+  void find_resting() noexcept {
+    resting_count_ = 0;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      resting_[resting_count_] = lane;
+      const auto state = static_cast<LaneState>(lanes_.state[lane]);
+      resting_count_ += int{state != LaneState::running} & int{state != LaneState::empty};
     }
+  }
+
+  void begin_rays() noexcept {
+    int crossing[kLanes];
+    int count = 0;
+    for (int i = 0; i < resting_count_; ++i)
+      if (lanes_.state[resting_[i]] == static_cast<std::uint32_t>(LaneState::crossing))
+        crossing[count++] = resting_[i];
+    for (int i = 0; i < count; ++i) world_.prefetch(Vec3(position(crossing[i])));
+    for (int i = 0; i < count; ++i) begin_ray(crossing[i]);
   }
 
   // The step of a lane; a long one's first part is often in balls.
@@ -143,28 +149,25 @@ class LaneWalks {
     clear_[lane] = clear;
     if (clear == distance) return;
     ++counters_.rays;
-    if constexpr (kTogether)
-      begun_[lane] = world_.begin_crossing(p + clear * d, d, distance - clear);
-    else
-      begun_[lane] = world_.first_crossing(p + clear * d, d, distance - clear);
+    begun_[lane] = world_.begin_crossing(p + clear * d, d, distance - clear);
   }
 
-  [[nodiscard]] Crossing finish_ray(int lane, const Walker& walker) const noexcept {
+  [[nodiscard]] Crossing finish_ray(int lane, const Walker& walker) noexcept {
     const Real distance(lanes_.distance[lane]);
-    if (clear_[lane] == distance)
-      return {CrossingKind::none, distance, walker.position + distance * walker.direction, {}, {}};
-    Crossing crossing;
-    if constexpr (kTogether)
-      crossing = world_.finish_crossing(begun_[lane]);
-    else
-      crossing = begun_[lane];
-    crossing.distance += clear_[lane];
-    return crossing;
+    if constexpr (kTogether) {
+      if (clear_[lane] == distance)
+        return {CrossingKind::none, distance, walker.position + distance * walker.direction, {}, {}};
+      Crossing crossing = world_.finish_crossing(begun_[lane]);
+      crossing.distance += clear_[lane];
+      return crossing;
+    } else {
+      ++counters_.rays;
+      return world_.first_crossing(walker.position, walker.direction, distance);
+    }
   }
 
   void see_to(int lane) noexcept {
     const auto state = static_cast<LaneState>(lanes_.state[lane]);
-    if (state == LaneState::running || state == LaneState::empty) return;
     if constexpr (kTallies) {
       client_.tally(lane, Real(lanes_.path[lane]), Real(lanes_.absorbed[lane]));
       lanes_.path[lane] = lanes_.absorbed[lane] = 0;
@@ -225,11 +228,13 @@ class LaneWalks {
     if constexpr (kTogether)
       return typename W::Begun{};
     else
-      return Crossing{};
+      return char{};
   }
-  decltype(begun_kind()) begun_[kLanes];
+  decltype(begun_kind()) begun_[kTogether ? kLanes : 1];
   Real clear_[kLanes] = {};  // of each crossing lane's step, the part that balls answer for
-  int fresh_[kLanes] = {};   // lanes that have been put and have no ball yet
+  int resting_[kLanes + 1] = {};
+  int resting_count_ = 0;
+  int fresh_[kLanes] = {};  // lanes that have been put and have no ball yet
   int fresh_count_ = 0;
   LaneCounters counters_;
 };

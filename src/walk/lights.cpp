@@ -9,13 +9,9 @@
 namespace meander {
 namespace {
 
-struct RectangleAxes {
-  DVec3 normal;
-  DVec3 right;
-  DVec3 up;
-};
+using Axes = PreparedLight::Axes;
 
-RectangleAxes axes_of(const RectangleLight& light) noexcept {
+Axes axes_of(const RectangleLight& light) noexcept {
   const DVec3 normal = glm::normalize(light.look_at - light.center);
   const DVec3 right = glm::normalize(glm::cross(normal, light.up));
   return {normal, right, glm::cross(right, normal)};
@@ -26,8 +22,8 @@ Real solid_angle_pdf(double distance, double cosine, double area) noexcept {
   return static_cast<Real>(distance * distance / (area * cosine));
 }
 
-std::optional<LightSample> sample(const RectangleLight& light, const DVec3& point, const Vec2& u) noexcept {
-  const RectangleAxes axes = axes_of(light);
+std::optional<LightSample> sample(const RectangleLight& light, const Axes& axes, const DVec3& point,
+                                  const Vec2& u) noexcept {
   const DVec3 target =
       light.center + (u.x - 0.5) * light.width * axes.right + (u.y - 0.5) * light.height * axes.up;
   const DVec3 toward = target - point;
@@ -38,8 +34,7 @@ std::optional<LightSample> sample(const RectangleLight& light, const DVec3& poin
                      solid_angle_pdf(distance, cosine, light.width * light.height), false};
 }
 
-std::optional<LightHit> hit(const RectangleLight& light, const Ray& ray) noexcept {
-  const RectangleAxes axes = axes_of(light);
+std::optional<LightHit> hit(const RectangleLight& light, const Axes& axes, const Ray& ray) noexcept {
   const DVec3 direction(ray.direction);
   const double cosine = -glm::dot(direction, axes.normal);
   if (!(cosine > 0)) return std::nullopt;
@@ -72,7 +67,8 @@ std::optional<double> sphere_distance(const DVec3& to_center, const DVec3& direc
   return std::nullopt;
 }
 
-std::optional<LightSample> sample(const SphereLight& light, const DVec3& point, const Vec2& u) noexcept {
+std::optional<LightSample> sample(const SphereLight& light, const Axes&, const DVec3& point,
+                                  const Vec2& u) noexcept {
   const DVec3 to_center = light.center - point;
   const double squared = glm::dot(to_center, to_center);
   if (squared <= light.radius * light.radius) {
@@ -90,7 +86,7 @@ std::optional<LightSample> sample(const SphereLight& light, const DVec3& point, 
                      pdf_cone(cone), false};
 }
 
-std::optional<LightHit> hit(const SphereLight& light, const Ray& ray) noexcept {
+std::optional<LightHit> hit(const SphereLight& light, const Axes&, const Ray& ray) noexcept {
   const DVec3 to_center = light.center - ray.origin;
   const auto distance = sphere_distance(to_center, DVec3(ray.direction), light.radius);
   if (!distance) return std::nullopt;
@@ -100,7 +96,8 @@ std::optional<LightHit> hit(const SphereLight& light, const Ray& ray) noexcept {
   return LightHit{*distance, light.radiance, pdf};
 }
 
-std::optional<LightSample> sample(const PointLight& light, const DVec3& point, const Vec2&) noexcept {
+std::optional<LightSample> sample(const PointLight& light, const Axes&, const DVec3& point,
+                                  const Vec2&) noexcept {
   const DVec3 toward = light.position - point;
   const double squared = glm::dot(toward, toward);
   if (!(squared > 0)) return std::nullopt;
@@ -109,31 +106,40 @@ std::optional<LightSample> sample(const PointLight& light, const DVec3& point, c
                      true};
 }
 
-std::optional<LightSample> sample(const DirectionalLight& light, const DVec3&, const Vec2&) noexcept {
+std::optional<LightSample> sample(const DirectionalLight& light, const Axes&, const DVec3&,
+                                  const Vec2&) noexcept {
   return LightSample{Vec3(-glm::normalize(light.direction)), std::numeric_limits<double>::infinity(),
                      light.irradiance, 1, true};
 }
 
-std::optional<LightHit> hit(const PointLight&, const Ray&) noexcept { return std::nullopt; }
-std::optional<LightHit> hit(const DirectionalLight&, const Ray&) noexcept { return std::nullopt; }
+std::optional<LightHit> hit(const PointLight&, const Axes&, const Ray&) noexcept { return std::nullopt; }
+std::optional<LightHit> hit(const DirectionalLight&, const Axes&, const Ray&) noexcept {
+  return std::nullopt;
+}
 
 }  // namespace
 
-std::optional<LightSample> sample_light(const Light& light, const DVec3& point, const Vec2& u) noexcept {
-  return std::visit([&](const auto& shape) { return sample(shape, point, u); }, light.shape);
+PreparedLight::PreparedLight(const Light& of) noexcept : light(of) {
+  if (const auto* rectangle = std::get_if<RectangleLight>(&of.shape)) axes = axes_of(*rectangle);
 }
 
-std::optional<LightSample> sample_light(const Scene& scene, std::size_t index, const DVec3& point,
+std::optional<LightSample> sample_light(const PreparedLight& light, const DVec3& point,
                                         const Vec2& u) noexcept {
-  if (index < scene.lights.size()) return sample_light(scene.lights[index], point, u);
-  const EnvironmentImage::Sample sample = scene.environment.image->sample(u);
+  return std::visit([&](const auto& shape) { return sample(shape, light.axes, point, u); },
+                    light.light.shape);
+}
+
+std::optional<LightSample> sample_light(const PreparedLights& lights, std::size_t index, const DVec3& point,
+                                        const Vec2& u) noexcept {
+  if (index < lights.lights.size()) return sample_light(lights.lights[index], point, u);
+  const EnvironmentImage::Sample sample = lights.scene.environment.image->sample(u);
   if (!(sample.pdf > 0)) return std::nullopt;
   return LightSample{sample.direction, std::numeric_limits<double>::infinity(), sample.radiance, sample.pdf,
                      false};
 }
 
-std::optional<LightHit> hit_light(const Light& light, const Ray& ray) noexcept {
-  return std::visit([&](const auto& shape) { return hit(shape, ray); }, light.shape);
+std::optional<LightHit> hit_light(const PreparedLight& light, const Ray& ray) noexcept {
+  return std::visit([&](const auto& shape) { return hit(shape, light.axes, ray); }, light.light.shape);
 }
 
 }  // namespace meander

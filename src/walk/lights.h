@@ -20,9 +20,29 @@ struct LightSample {
   bool delta;
 };
 
+/// A light with what sampling it needs made once; refers to the light.
+struct PreparedLight {
+  PreparedLight(const Light& of) noexcept;  // implicit: a light is as good where speed does not matter
+
+  const Light& light;
+  struct Axes {
+    DVec3 normal{0, 0, 1};
+    DVec3 right{1, 0, 0};
+    DVec3 up{0, 1, 0};
+  } axes;  // of a rectangle
+};
+
+/// Those of a scene, to which it refers.
+struct PreparedLights {
+  PreparedLights(const Scene& from) : scene(from), lights(from.lights.begin(), from.lights.end()) {}
+
+  const Scene& scene;
+  std::vector<PreparedLight> lights;
+};
+
 /// Draws a direction toward a light from `point` with u in [0, 1)^2; nothing where the light shows its dark
 /// side.
-[[nodiscard]] std::optional<LightSample> sample_light(const Light& light, const DVec3& point,
+[[nodiscard]] std::optional<LightSample> sample_light(const PreparedLight& light, const DVec3& point,
                                                       const Vec2& u) noexcept;
 
 /// How many lights are sampled: those of the scene's list and, after them, the environment if it is an image.
@@ -31,7 +51,7 @@ struct LightSample {
 }
 
 /// sample_light for the sampled light of that index.
-[[nodiscard]] std::optional<LightSample> sample_light(const Scene& scene, std::size_t index,
+[[nodiscard]] std::optional<LightSample> sample_light(const PreparedLights& lights, std::size_t index,
                                                       const DVec3& point, const Vec2& u) noexcept;
 
 /// The group of contributions that the sampled light of that index belongs to, see Contribution.
@@ -48,6 +68,6 @@ struct LightHit {
 };
 
 /// Nothing for lights without extent.
-[[nodiscard]] std::optional<LightHit> hit_light(const Light& light, const Ray& ray) noexcept;
+[[nodiscard]] std::optional<LightHit> hit_light(const PreparedLight& light, const Ray& ray) noexcept;
 
 }  // namespace meander

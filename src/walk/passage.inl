@@ -150,7 +150,7 @@ struct PathTracer<G>::Passage {
     const double behind = glm::dot(found.ray.origin - found.vertex, DVec3(walker.direction));
     for (std::size_t i = 0; i < tracer.scene_.lights.size(); ++i) {
       if (!found.scattered && !tracer.scene_.lights[i].visible) continue;
-      const auto seen = hit_light(tracer.scene_.lights[i], from_vertex);
+      const auto seen = hit_light(tracer.lights_.lights[i], from_vertex);
       if (!seen || seen->distance < behind || seen->distance - behind >= double{distance}) continue;
       found.weight = walker.weight;
       found.weight.pass(material.medium, static_cast<Real>(seen->distance - behind));

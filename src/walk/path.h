@@ -80,6 +80,14 @@ struct Path {
   std::uint64_t counted_steps = 0;  // of the walker's
 };
 
+/// What a path begins with: a camera ray, the first surface that it meets, and the channel that samples a
+/// chromatic path's distances, uniformly distributed over the paths of a pixel; without it, it is drawn.
+struct PathStart {
+  Ray ray;
+  std::optional<SurfaceHit> hit;
+  std::optional<int> hero;
+};
+
 /// What a path needs next: the walk of path.walker in the body of path.hit, or nothing any more.
 enum class PathStep { walk, done, interrupted };
 
@@ -87,20 +95,18 @@ enum class PathStep { walk, done, interrupted };
 template <SceneGeometry G>
 class PathTracer {
  public:
-  PathTracer(const Scene& scene, const G& geometry, const PathOptions& options) noexcept
-      : scene_(scene), geometry_(geometry), options_(options) {}
+  PathTracer(const Scene& scene, const G& geometry, const PathOptions& options)
+      : scene_(scene), geometry_(geometry), options_(options), lights_(scene) {}
 
   /// Traces one path, with scalar walks, and hands its contributions to the sink; false when it was
-  /// interrupted. `hero` is the channel that samples a chromatic path's distances, uniformly distributed over
-  /// the paths of a pixel; without it, it is drawn.
+  /// interrupted. `hero`: see PathStart.
   template <Sink S>
   [[nodiscard]] bool trace(const Ray& camera_ray, Random& random, S& sink,
                            std::optional<int> hero = std::nullopt) noexcept;
 
   /// The same in pieces, for walks that are walked elsewhere: takes a new path as far as its first walk.
   template <Sink S>
-  [[nodiscard]] PathStep begin(Path& path, const Ray& camera_ray, Random& random, S& sink,
-                               std::optional<int> hero = std::nullopt) noexcept;
+  [[nodiscard]] PathStep begin(Path& path, const PathStart& start, Random& random, S& sink) noexcept;
 
   /// Takes a path whose walk has ended as far as its next one.
   template <Sink S>
@@ -140,7 +146,7 @@ class PathTracer {
   template <Sink S>
   [[nodiscard]] PathStep proceed(Path& path, Random& random, S& sink) noexcept;
   template <Sink S>
-  [[nodiscard]] Step advance(Path& path, Random& random, S& sink) noexcept;
+  [[nodiscard]] Step meet(Path& path, const std::optional<SurfaceHit>& hit, Random& random, S& sink) noexcept;
   template <Sink S>
   [[nodiscard]] Step reflect(const SurfaceHit& hit, const LambertLobe& lobe, State& state, Random& random,
                              S& sink) noexcept;
@@ -182,6 +188,7 @@ class PathTracer {
   const Scene& scene_;
   const G& geometry_;
   PathOptions options_;
+  PreparedLights lights_;
   PathCounters counters_;
 };
 

@@ -7,7 +7,7 @@ template <SceneGeometry G>
 template <Sink S>
 bool PathTracer<G>::trace(const Ray& camera_ray, Random& random, S& sink, std::optional<int> hero) noexcept {
   Path path;
-  PathStep step = begin(path, camera_ray, random, sink, hero);
+  PathStep step = begin(path, {camera_ray, geometry_.closest_hit(camera_ray), hero}, random, sink);
   while (step == PathStep::walk) {
     const WalkResult walked = walk(path, random, sink);
     step = resume(path, walked, random, sink);
@@ -17,13 +17,15 @@ bool PathTracer<G>::trace(const Ray& camera_ray, Random& random, S& sink, std::o
 
 template <SceneGeometry G>
 template <Sink S>
-PathStep PathTracer<G>::begin(Path& path, const Ray& camera_ray, Random& random, S& sink,
-                              std::optional<int> hero) noexcept {
+PathStep PathTracer<G>::begin(Path& path, const PathStart& start, Random& random, S& sink) noexcept {
   path.state = {};
-  path.state.ray = camera_ray;
-  path.state.vertex = camera_ray.origin;
+  path.state.ray = start.ray;
+  path.state.vertex = start.ray.origin;
   if (options_.chromatic)
-    path.state.weight.hero = hero ? *hero : std::min(static_cast<int>(random.next() * 3), 2);
+    path.state.weight.hero = start.hero ? *start.hero : std::min(static_cast<int>(random.next() * 3), 2);
+  ++counters_.rays;
+  const Step step = meet(path, start.hit, random, sink);
+  if (step != Step::go_on) return step == Step::walk ? PathStep::walk : PathStep::done;
   return proceed(path, random, sink);
 }
 
@@ -70,17 +72,17 @@ template <Sink S>
 PathStep PathTracer<G>::proceed(Path& path, Random& random, S& sink) noexcept {
   for (std::uint64_t vertices = 1;; ++vertices) {
     if (vertices % kStopInterval == 0 && stop()) return PathStep::interrupted;
-    const Step step = advance(path, random, sink);
+    ++counters_.rays;
+    const Step step = meet(path, geometry_.closest_hit(path.state.ray), random, sink);
     if (step != Step::go_on) return step == Step::walk ? PathStep::walk : PathStep::done;
   }
 }
 
 template <SceneGeometry G>
 template <Sink S>
-auto PathTracer<G>::advance(Path& path, Random& random, S& sink) noexcept -> Step {
+auto PathTracer<G>::meet(Path& path, const std::optional<SurfaceHit>& hit, Random& random, S& sink) noexcept
+    -> Step {
   State& state = path.state;
-  ++counters_.rays;
-  const std::optional<SurfaceHit> hit = geometry_.closest_hit(state.ray);
   if (collect_lights(state, hit ? hit->distance : std::numeric_limits<double>::infinity(), sink))
     return Step::done;
   if (!hit) {
@@ -132,6 +134,7 @@ auto PathTracer<G>::reflect(const SurfaceHit& hit, const LambertLobe& lobe, Stat
 template <SceneGeometry G>
 template <Sink S>
 bool PathTracer<G>::collect_lights(const State& state, double distance, S& sink) const noexcept {
+  if (scene_.lights.empty()) return false;
   // Seen from the last vertex, which lies straight behind the ray's origin, across matched bodies.
   const Ray from_vertex{state.vertex, state.ray.direction};
   const double behind = glm::dot(state.ray.origin - state.vertex, DVec3(state.ray.direction));
@@ -140,7 +143,7 @@ bool PathTracer<G>::collect_lights(const State& state, double distance, S& sink)
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
     const Light& light = scene_.lights[i];
     if (!state.scattered && !light.visible) continue;
-    const auto hit = hit_light(light, from_vertex);
+    const auto hit = hit_light(lights_.lights[i], from_vertex);
     if (!hit || hit->distance < behind || hit->distance - behind >= distance) continue;
     if (!state.scattered) {
       if (hit->distance - behind >= seen.distance) continue;
@@ -193,7 +196,7 @@ template <SceneGeometry G>
 template <Sink S, class Weigh>
 void PathTracer<G>::sample_direct(std::size_t light, const State& vertex, const Weigh& weigh, const Vec2& u,
                                   S& sink) noexcept {
-  const auto sample = sample_light(scene_, light, vertex.vertex, u);
+  const auto sample = sample_light(lights_, light, vertex.vertex, u);
   if (!sample) return;
   // A cheap look first: where the lobe is black no shadow ray is needed.
   const PathWeight& weight = vertex.weight;

@@ -18,20 +18,19 @@ concept LaneGeometry = SceneGeometry<G> && requires(const G& geometry, std::size
   { geometry.safe_region(object) } -> std::same_as<SafeRegion>;
 };
 
-/// What a path begins with, see PathTracer::begin.
-struct PathStart {
-  std::size_t sample = 0;  // its number, as its source has it
-  Ray ray;
+/// A sample to take.
+struct BatchSample {
+  std::size_t number = 0;  // as its source has it
+  PathStart start;
   Random random{{1, 0, 0, 0}};
-  int hero = 0;
 };
 
 /// Where a batch has its samples from and where they go. next: a sample to begin; false when none is left.
 /// done: all that the sample found.
 template <class C, class S>
-concept SampleSource = requires(C& source, PathStart& start, const S& sink) {
-  { source.next(start) } -> std::same_as<bool>;
-  source.done(start.sample, sink);
+concept SampleSource = requires(C& source, BatchSample& sample, const S& sink) {
+  { source.next(sample) } -> std::same_as<bool>;
+  source.done(sample.number, sink);
 };
 
 /// Traces all the samples of a source, each into a sink of its own. What a sample finds depends on nothing
@@ -118,13 +117,13 @@ class PathBatch {
     if (interrupted_) return false;
     if (free_.empty()) free_.push_back(&slots_.emplace_back());
     Slot& slot = *free_.back();
-    PathStart start;
-    if (!source_.next(start)) return false;
+    BatchSample sample;
+    if (!source_.next(sample)) return false;
     free_.pop_back();
-    slot.sample = start.sample;
-    slot.random = start.random;
+    slot.sample = sample.number;
+    slot.random = sample.random;
     slot.sink = {};
-    settle(slot, tracer_.begin(slot.path, start.ray, slot.random, slot.sink, start.hero));
+    settle(slot, tracer_.begin(slot.path, sample.start, slot.random, slot.sink));
     return true;
   }
 

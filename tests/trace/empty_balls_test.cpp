@@ -175,16 +175,6 @@ TEST_CASE("no step into a ball that faces its cell leaves the body, wherever in 
   }
 }
 
-TEST_CASE("the finer the walk, the finer the field, and none for walks that leave at once") {
-  const Device device = make_device(1);
-  DVec3 center;
-  const MeshBody body(device.get(), make_sphere_mesh(4), DMat3(3), center);
-  CHECK(cells_for(body, 4) == 0);
-  CHECK(cells_for(body, 1) == 64);
-  CHECK(cells_for(body, Real(0.02)) == 96);
-  CHECK(cells_for(body, Real(1e-6)) == 128);
-}
-
 TEST_CASE("the balls are the same on one thread and on two") {
   const Device device = make_device(2);
   DVec3 center;
