@@ -64,10 +64,6 @@ std::string write_evidence(const Evidence& evidence, const std::string& folder) 
   fs::create_directories(folder);
   for (const EvidencePicture& shown : evidence.pictures)
     write_png(folder + "/" + shown.name + ".png", shown.picture, {});
-  for (const std::string& file : evidence.files) {
-    const fs::path copy = fs::path(folder) / fs::path(file).filename();
-    fs::copy_file(file, copy, fs::copy_options::overwrite_existing);
-  }
   const std::string html = page(evidence);
   const std::string path = folder + "/index.html";
   write_file(path, std::as_bytes(std::span(html)));

@@ -22,7 +22,7 @@ struct Evidence {
   std::string verdict;                                       // one line
   std::vector<std::pair<std::string, std::string>> numbers;  // name, value
   std::vector<EvidencePicture> pictures;
-  std::vector<std::string> files;  // copied beside the page, which links to them
+  std::vector<std::string> files;  // in the page's folder; it links to them
 };
 
 /// Writes the evidence into `folder` (made where it is missing) and returns the path of its index.html. Error

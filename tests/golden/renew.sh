@@ -2,7 +2,7 @@
 # Renews golden images: renew.sh BUILD REASON [NAME…], all of them or those of that name; BUILD is a build folder
 # (build/release). Commit the result. Each renewal is a row of RECORD.csv: what, when, by which version and commit, with
 # which seed, samples a pixel and walk, how long it took, and why. The statistical ones are rendered by the scalar walk, the
-# oracle, with 8 times the samples of the test that takes most, and a seed that no test has: the column `seconds` tells what
+# oracle, with 16 times the samples of the test that takes most, and a seed that no test has: the column `seconds` tells what
 # that takes. The drawn ones take seconds.
 set -euo pipefail
 fail() { echo "renew.sh: $*" >&2; exit 2; }
@@ -11,7 +11,7 @@ build=$(realpath "$1") reason=$2
 shift 2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 meander=$build/src/app/meander draw=$build/tests/golden/golden_draw
-seed=1000003 factor=8 largest=65536
+seed=1000003 factor=16 largest=65536
 [[ -x $meander ]] || fail "$meander is not there: build it first"
 commit=$(git -C "$here" describe --always --dirty=+ 2>/dev/null || echo unknown)
 version="$("$meander" --version) $commit"
