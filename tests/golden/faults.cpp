@@ -29,10 +29,10 @@ void swap_a_pixel(Image& image) {
 }
 
 void shift(Image& image) {
+  const Image still = image;
   for (int y = 0; y < image.height; ++y)
-    std::copy_backward(image.at(0, y),
-                       image.at(0, y) + static_cast<std::ptrdiff_t>(image.width - 1) * image.channels,
-                       image.at(0, y) + static_cast<std::ptrdiff_t>(image.width) * image.channels);
+    for (int x = 0; x < image.width; ++x)
+      std::copy_n(still.at(std::max(x - 1, 0), std::max(y - 1, 0)), image.channels, image.at(x, y));
 }
 
 float mean_around(const Image& image, int x, int y, int channel) {
