@@ -109,4 +109,14 @@ struct ZTest {
 [[nodiscard]] ZTest z_test(const Image& a, const Image& b, std::span<const std::uint8_t> mask = {},
                            const ZTestOptions& options = {});
 
+/// The z that z_test judges one by one, three channels each, signed as there.
+struct ZScores {
+  Image values;  // as large as the images; 0 where a value is not counted or not finite
+  Image blocks;  // a pixel a block; 0 where nothing is counted; small blocks are not pooled
+};
+
+/// For a picture of where z_test finds what it finds. The same errors.
+[[nodiscard]] ZScores z_scores(const Image& a, const Image& b, std::span<const std::uint8_t> mask = {},
+                               const ZTestOptions& options = {});
+
 }  // namespace meander

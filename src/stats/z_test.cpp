@@ -77,18 +77,26 @@ struct Comparison {
   [[nodiscard]] int across() const { return (a.width + block - 1) / block; }
   [[nodiscard]] int down() const { return (a.height + block - 1) / block; }
 
-  // Calls visit(block index, channel, difference) for every counted value.
+  // Calls visit(block index, pixel index, channel, difference) for every counted value.
   template <class Visit>
-  void for_each_value(const Visit& visit) const {
+  void for_each_place(const Visit& visit) const {
     for (int y = 0; y < a.height; ++y) {
       for (int x = 0; x < a.width; ++x) {
         const std::size_t pixel = static_cast<std::size_t>(y) * a.width + x;
         if (!counted.counts(pixel)) continue;
         const std::size_t home = static_cast<std::size_t>(y / block) * across() + x / block;
         for (int channel = 0; channel < 3; ++channel)
-          visit(home, channel, difference_at(a, b, pixel, channel));
+          visit(home, pixel, channel, difference_at(a, b, pixel, channel));
       }
     }
+  }
+
+  // The same for those that need not know where.
+  template <class Visit>
+  void for_each_value(const Visit& visit) const {
+    for_each_place([&](std::size_t block, std::size_t, int channel, const Difference& value) {
+      visit(block, channel, value);
+    });
   }
 };
 
@@ -230,6 +238,24 @@ ZTest z_test(const Image& a, const Image& b, std::span<const std::uint8_t> mask,
   test.p = std::min(test.pixels_p, sidak_p(std::min(test.block_p, test.image_p), 2));
   if (test.non_finite > 0) test.p = 0;
   return test;
+}
+
+ZScores z_scores(const Image& a, const Image& b, std::span<const std::uint8_t> mask,
+                 const ZTestOptions& options) {
+  assert(options.block > 0);
+  const Comparison images{a, b, CountedPixels(a, b, mask, 6), options.block};
+  ZTest ignored;
+  const std::vector<Channels> blocks = raise_variances(sum_blocks(images, ignored));
+  ZScores scores{Image(a.width, a.height, 3), Image(images.across(), images.down(), 3)};
+  images.for_each_place([&](std::size_t block, std::size_t pixel, int channel, const Difference& value) {
+    if (value.count == 0) return;
+    scores.values.values[pixel * 3 + channel] = static_cast<float>(value_z(value, blocks[block][channel]));
+  });
+  for (std::size_t block = 0; block < blocks.size(); ++block)
+    for (int channel = 0; channel < 3; ++channel)
+      if (blocks[block][channel].count > 0)
+        scores.blocks.values[block * 3 + channel] = static_cast<float>(blocks[block][channel].z());
+  return scores;
 }
 
 }  // namespace meander

@@ -1,4 +1,6 @@
 #include <doctest/doctest.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -151,6 +153,23 @@ TEST_CASE("A 3 % brighter image fails at 8 samples although no single pixel show
   CHECK_FALSE(test.passed);
   CHECK(test.image_p < 1e-4);
   for (const double z : test.image_z) CHECK(z > 3.5);
+}
+
+TEST_CASE("The scores that are drawn are those that are judged") {
+  const Render plan{32, 8, 1, 0.5};
+  Image a = render(plan, 5);
+  const Image b = render(plan, 6);
+  shift_pixel(a, 13, 22, 3);  // block (1, 2)
+  const ZTest test = z_test(a, b);
+  const ZScores scores = z_scores(a, b);
+  CHECK(scores.blocks.width == 4);
+  const auto largest = [](const Image& z) {
+    return *std::ranges::max_element(z.values, {}, [](float value) { return std::abs(value); });
+  };
+  CHECK(largest(scores.values) == doctest::Approx(test.worst_pixel_z));
+  CHECK(largest(scores.blocks) == doctest::Approx(test.worst_block_z));
+  const float* pixel = scores.values.at(13, 22);
+  CHECK(*std::max_element(pixel, pixel + 3) == largest(scores.values));
 }
 
 TEST_CASE("A region that is off fails by its blocks while the image mean holds") {
