@@ -94,8 +94,8 @@ struct Comparison {
   // The same for those that need not know where.
   template <class Visit>
   void for_each_value(const Visit& visit) const {
-    for_each_place([&](std::size_t block, std::size_t, int channel, const Difference& value) {
-      visit(block, channel, value);
+    for_each_place([&](std::size_t home, std::size_t, int channel, const Difference& value) {
+      visit(home, channel, value);
     });
   }
 };
