@@ -16,14 +16,15 @@ constexpr double kMostSeconds = 1;
 constexpr std::size_t kCounters = 4096;
 
 // libFuzzer counts these as it counts edges: the libraries behind the readers are not instrumented, and what
-// they say of a file has to tell one input from another. The section is libFuzzer's interface, hence a global.
+// they say of a file has to tell one input from another. The section is libFuzzer's interface, hence a
+// global.
 __attribute__((section("__libfuzzer_extra_counters"))) std::uint8_t outcome_counters[kCounters];
 
-void count_outcome(const std::string& outcome) {
+void count_outcome(const meander::FuzzOutcome& outcome) {
   std::string words;
-  for (const char c : outcome)
-    if (c < '0' || c > '9') words += c;
-  outcome_counters[std::hash<std::string>()(outcome.starts_with("mesh ") ? outcome : words) % kCounters] = 1;
+  for (const char c : outcome.words)
+    if (outcome.read || c < '0' || c > '9') words += c;
+  outcome_counters[std::hash<std::string>()(words) % kCounters] = 1;
 }
 
 [[noreturn]] void finding(const char* what) {

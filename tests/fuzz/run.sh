@@ -66,6 +66,7 @@ main() {
   export ASAN_OPTIONS=quarantine_size_mb=32:allocator_may_return_null=0:detect_leaks=1
   export LSAN_OPTIONS=suppressions=$root/third_party/sanitizers/lsan.supp:print_suppressions=0
   [[ -w /dev/shm ]] && export TMPDIR=/dev/shm
+  "$bin/fuzz_replay" "$root/tests/fuzz/corpus" >"$out.replay" || { cat "$out.replay" >&2; exit 1; }
   for target in "${targets[@]}"; do
     while (($(jobs -rp | wc -l) >= jobs)); do wait -n || true; done
     fuzz "$target" "$seconds" &

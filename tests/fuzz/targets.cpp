@@ -29,8 +29,8 @@ void require(bool holds, const std::string& what) {
 
 void require_sound(const Error& error) {
   const std::string line = error.what();
-  require(error.exit_code() == 2, "an input's error has exit code 2, not " +
-                                      std::to_string(error.exit_code()) + ": " + line);
+  require(error.exit_code() == 2,
+          "an input's error has exit code 2, not " + std::to_string(error.exit_code()) + ": " + line);
   const bool printable = std::none_of(line.begin(), line.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return byte < 0x20 || byte == 0x7f;
@@ -40,8 +40,9 @@ void require_sound(const Error& error) {
 
 void require_sound(const Mesh& mesh) {
   const auto within = [](const std::vector<Triangle>& triangles, std::size_t count) {
-    return std::all_of(triangles.begin(), triangles.end(),
-                       [&](const Triangle& t) { return std::max({t[0], t[1], t[2]}) < count; });
+    return std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+      return std::max({t[0], t[1], t[2]}) < count;
+    });
   };
   require(!mesh.triangles.empty(), "a mesh has a triangle");
   require(within(mesh.triangles, mesh.positions.size()), "a mesh's triangles have corners");
@@ -51,7 +52,9 @@ void require_sound(const Mesh& mesh) {
 }
 
 // Size as one digit, so that messages and not numbers tell inputs apart.
-std::string magnitude(std::size_t count) { return std::to_string(count < 2 ? count : std::llround(std::log2(count))); }
+std::string magnitude(std::size_t count) {
+  return std::to_string(count < 2 ? count : std::llround(std::log2(count)));
+}
 
 std::string try_mesh(std::string_view extension, const FuzzFolder& folder, std::string_view bytes) {
   const std::string path = folder.write("input." + std::string(extension), bytes);
@@ -82,8 +85,8 @@ std::string try_image(const FuzzFolder& folder, std::string_view bytes) {
   require(loaded.channels.size() == static_cast<std::size_t>(image.channels), "channels have names");
   return std::string(name) + ' ' + magnitude(static_cast<std::size_t>(image.width)) + ' ' +
          magnitude(static_cast<std::size_t>(image.height)) + ' ' +
-         magnitude(static_cast<std::size_t>(image.channels)) + ' ' + magnitude(loaded.attributes.text.size()) +
-         ' ' + magnitude(loaded.attributes.integers.size());
+         magnitude(static_cast<std::size_t>(image.channels)) + ' ' +
+         magnitude(loaded.attributes.text.size()) + ' ' + magnitude(loaded.attributes.integers.size());
 }
 
 void export_everywhere(const Scene& scene) {
@@ -107,8 +110,7 @@ std::vector<std::string> edits_in(std::string_view text) {
 }
 
 std::string try_scene(const FuzzFolder& folder, std::string_view bytes) {
-  const std::string path = folder.at("input.toml");
-  SceneDocument document = SceneDocument::from_text(std::string(bytes), path);
+  SceneDocument document = folder.read_scene(bytes);
   std::string outcome;
   for (const std::string& edit : edits_in(bytes)) {
     try {
@@ -120,7 +122,7 @@ std::string try_scene(const FuzzFolder& folder, std::string_view bytes) {
     }
   }
   const std::string text = document.text();
-  const std::string again = SceneDocument::from_text(text, path).text();
+  const std::string again = folder.read_scene(text).text();
   require(again == text, "a scene's text reads back the same");
   const Scene scene = document.scene().scene;
   export_everywhere(scene);
@@ -150,6 +152,7 @@ FuzzFolder::FuzzFolder() {
   std::fill(light.values.begin(), light.values.end(), 0.5f);
   const std::array<std::string, 3> names{"R", "G", "B"};
   write_exr(at("light.exr"), light, names, {});
+  first_scene_ = SceneDocument::from_text("", at("input.toml"));
 }
 
 FuzzFolder::~FuzzFolder() {
@@ -162,12 +165,17 @@ std::string FuzzFolder::write(std::string_view name, std::string_view bytes) con
   return at(name);
 }
 
-std::string try_input(FuzzTarget target, const FuzzFolder& folder, std::string_view bytes) {
+SceneDocument FuzzFolder::read_scene(std::string_view text) const {
+  (void)write("input.toml", text);
+  return first_scene_->reopened();
+}
+
+FuzzOutcome try_input(FuzzTarget target, const FuzzFolder& folder, std::string_view bytes) {
   try {
-    return try_reader(target, folder, bytes);
+    return {true, try_reader(target, folder, bytes)};
   } catch (const Error& error) {
     require_sound(error);
-    return error.what();
+    return {false, error.what()};
   }
 }
 
