@@ -24,7 +24,7 @@ usage() {
 run_once() {
   local folder=$out/$1 TIMEFORMAT='%U %S' dictionary=()
   [[ -f $root/tests/fuzz/$1.dict ]] && dictionary=(-dict="$root/tests/fuzz/$1.dict")
-  { time nice -n 19 "$bin/fuzz_$1" -max_total_time="$2" -timeout=60 -malloc_limit_mb=1024 -rss_limit_mb=2048 \
+  { time nice -n 19 "$bin/fuzz_$1" -max_total_time="$2" -timeout=60 -report_slow_units=3600 -malloc_limit_mb=1024 -rss_limit_mb=2048 \
     -max_len=$longest_input -print_final_stats=1 "${dictionary[@]}" -artifact_prefix="$folder/findings/" "$folder/corpus" \
     >"$3" 2>&1; } 2>"$3.time" || true
 }
