@@ -74,6 +74,7 @@ class Storm {
   void frame();
   void await_picture();
   void calm_down();
+  void resize(int width, int height);
   void carry_out(const Command& command) { previewer_.carry_out(command); }
   [[nodiscard]] const Previewer& previewer() const { return previewer_; }
   [[nodiscard]] const Functions& gl() const { return context_.functions(); }
@@ -106,7 +107,6 @@ class Storm {
   void wheel();
   void drop();
   void undo_run();
-  void resize(int width, int height);
   void send(InputKind kind, double x, double y, int code = 0, bool down = false, Modifiers modifiers = {});
   void check_picture(const Image8& shown) const;
 

@@ -6,7 +6,8 @@
 #include <fstream>
 
 #ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/allocator_interface.h>
+extern "C" std::size_t
+__sanitizer_get_current_allocated_bytes();  // of its runtime; GCC 12 has no header for it
 #endif
 
 namespace meander {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <thread>
 
 #include "core/error.h"
@@ -13,7 +14,8 @@
 namespace meander {
 namespace {
 
-constexpr double kAlike = 0.75;  // of the film's pixels: messages and handles lie over some
+constexpr int kLeastSeconds = 10;  // of processor time, all threads together
+constexpr double kAlike = 0.75;    // of the film's pixels: messages and handles lie over some
 
 void write_at_once(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
@@ -21,10 +23,14 @@ void write_at_once(const std::string& path, const std::string& text) {
 
 // The part of the pixels within the placement whose levels agree within one.
 double likeness(const Image8& a, const Image8& b, const FilmPlacement& film) {
+  const auto x0 = static_cast<int>(std::ceil(film.x));
+  const auto y0 = static_cast<int>(std::ceil(film.y));
+  const auto x1 = static_cast<int>(film.x + film.width);
+  const auto y1 = static_cast<int>(film.y + film.height);
   std::size_t alike = 0;
   std::size_t all = 0;
-  for (int y = std::max(film.y, 0); y < std::min(film.y + film.height, a.height); ++y) {
-    for (int x = std::max(film.x, 0); x < std::min(film.x + film.width, a.width); ++x) {
+  for (int y = std::max(y0, 0); y < std::min(y1, a.height); ++y) {
+    for (int x = std::max(x0, 0); x < std::min(x1, a.width); ++x) {
       bool same = true;
       for (int c = 0; c < 3; ++c) same = same && std::abs(a.at(x, y)[c] - b.at(x, y)[c]) <= 1;
       alike += same;
@@ -36,10 +42,12 @@ double likeness(const Image8& a, const Image8& b, const FilmPlacement& film) {
 
 }  // namespace
 
-// False when it does not come about within kMostFrames.
+// False when it does not come about within kMostFrames, unless the process had hardly any processor.
 template <class Done>
 bool Soak::wait_until(const Done& done) {
-  for (int frames = 0; frames <= kMostFrames; ++frames) {
+  const std::clock_t begin = std::clock();
+  for (int frames = 0; frames <= kMostFrames || std::clock() - begin < kLeastSeconds * CLOCKS_PER_SEC;
+       ++frames) {
     if (done()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     storm_.frame();
@@ -123,7 +131,7 @@ void Soak::step() {
   await_current();
 }
 
-// No comparison and no snapshot over it.
+// No comparison, no snapshot and no message over it.
 void Soak::show_live_picture() {
   using enum CommandKind;
   const PreviewLook& look = state().look;
@@ -131,6 +139,8 @@ void Soak::show_live_picture() {
   if (look.comparison == Comparison::wipe) storm_.carry_out({wipe, 0, 0, {}, {}});
   if (look.comparison == Comparison::difference) storm_.carry_out({difference, 0, 0, {}, {}});
   while (!storm_.previewer().pictures().snapshots().empty()) storm_.carry_out({drop_snapshot, 0, 0, {}, {}});
+  while (!state().messages.empty())
+    storm_.carry_out({dismiss, static_cast<std::int64_t>(state().messages.front().id), 0, {}, {}});
   storm_.carry_out({set_a, -1, 0, {}, {}});
   storm_.carry_out({set_b, -1, 0, {}, {}});
   for (int i = 0; i < 4; ++i) storm_.frame();
@@ -149,10 +159,10 @@ void Soak::check_screen(const std::shared_ptr<const LiveFrame>& frame) {
       const Region room{static_cast<int>(std::ceil(area.x)), static_cast<int>(std::ceil(area.y)),
                         static_cast<int>(area.width), static_cast<int>(area.height)};
       const FilmPlacement film = fitted(scene.film.width, scene.film.height, room);
-      Framebuffer target(storm_.gl(), storm_.width(), storm_.height());
-      target.bind(storm_.width(), storm_.height());
       PreviewPictures fresh(storm_.gl());
       (void)fresh.take(picture);
+      Framebuffer target(storm_.gl(), storm_.width(), storm_.height());
+      target.bind(storm_.width(), storm_.height());
       fresh.draw(state().look, scene.display, {film, room, storm_.width(), storm_.height()});
       best = std::max(best, likeness(shown, target.read(storm_.width(), storm_.height()), film));
     }
@@ -167,11 +177,14 @@ void Soak::check_screen(const std::shared_ptr<const LiveFrame>& frame) {
 
 void Soak::verify() {
   storm_.calm_down();
+  storm_.resize(960, 540);  // room for a picture beside panels
   show_live_picture();
   const std::shared_ptr<const LiveFrame> frame = storm_.previewer().pictures().newest();
   REQUIRE(frame);
   REQUIRE(storm_.previewer().spp() == 8);
   const FilmPlanes fresh = fresh_planes(state(), 8);
+  CAPTURE(state().history.now().text());
+  CAPTURE(frame->generation);
   CHECK(frame->planes.radiance.values == fresh.radiance.values);
   CHECK(frame->planes.error.values == fresh.error.values);
   CHECK(frame->planes.features.values == fresh.features.values);

@@ -11,10 +11,14 @@
 
 namespace meander {
 
-/// Frames, 10 ms apart, within which a picture of what was asked last has to be there, or what changed on
-/// disk be noticed (the previewer looks every 0.4 s). Counted in frames, not seconds: the process may be
-/// stopped.
+/// Frames, 10 ms apart or more, within which a picture of what was asked last has to be there, or what changed
+/// on disk be noticed (the previewer looks every 0.4 s); ten times as many under the address sanitizer.
+/// Counted in frames, not seconds: the process may be stopped.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr int kMostFrames = 3000;
+#else
 inline constexpr int kMostFrames = 300;
+#endif
 
 class Soak {
  public:
