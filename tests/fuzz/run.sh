@@ -34,9 +34,9 @@ bin_of() {
 run_once() {
   local folder=$out/$1 TIMEFORMAT='%U %S' dictionary=()
   [[ -f $root/tests/fuzz/$1.dict ]] && dictionary=(-dict="$root/tests/fuzz/$1.dict")
-  { time nice -n 19 "$(bin_of "$1")/fuzz_$1" -max_total_time=$((4 * $2)) -timeout=0 -report_slow_units=3600 -malloc_limit_mb=1024 -rss_limit_mb=2048 \
-    -max_len=$longest_input -print_final_stats=1 "${dictionary[@]}" -artifact_prefix="$folder/findings/" "$folder/corpus" \
-    >"$3" 2>&1; } 2>"$3.time" || true
+  { time nice -n 19 "$(bin_of "$1")/fuzz_$1" -max_total_time="$2" -timeout=0 -report_slow_units=3600 \
+    -malloc_limit_mb=1024 -rss_limit_mb=2048 -max_len=$longest_input -print_final_stats=1 "${dictionary[@]}" \
+    -artifact_prefix="$folder/findings/" "$folder/corpus" >"$3" 2>&1; } 2>"$3.time" || true
 }
 
 # Until the processor seconds are spent: another process after a finding, and where the clock ran faster than the work.
@@ -47,7 +47,7 @@ fuzz() {
   cp "$root/tests/fuzz/corpus/$target"/* "$folder/corpus/"
   while ((spent < seconds && found < most_findings)); do
     round=$((round + 1))
-    run_once "$target" $((seconds - spent < 5 ? 5 : seconds - spent)) "$folder/logs/$round"
+    run_once "$target" $((seconds - spent < 60 ? 60 : seconds - spent)) "$folder/logs/$round"
     spent=$(cat "$folder"/logs/*.time | awk '{ sum += $1 + $2 } END { printf "%d", sum + 0.5 }')
     found=$(find "$folder/findings" -type f | wc -l)
   done
@@ -77,6 +77,7 @@ row() {
 }
 
 main() {
+  command -v clang++ >/dev/null || { echo "run.sh: no clang here: third_party/packages-fuzz.txt has what is needed" >&2; exit 3; }
   [[ ${1:-} =~ ^[0-9]+$ ]] || usage
   local seconds=$1 jobs=${JOBS:-2} targets=("${@:2}") target
   ((${#targets[@]})) || targets=("${all[@]}")

@@ -24,7 +24,7 @@ class Soak {
  public:
   Soak(const Folder& folder, unsigned seed) : folder_(folder), random_(seed + 77), storm_(folder, seed) {}
 
-  /// A step of the storm, or a file that changes; then the picture of what is asked now has to come.
+  /// A step of the storm, or a file that changes, as the second does at any rate; then the picture of what is asked now has to come.
   void step();
   /// Lets the picture become complete: it and what the screen shows must be what a new rendering and a new
   /// display make of the parameters, bit for bit and nearly so. Lets go of snapshots, which a user may pile
@@ -54,6 +54,7 @@ class Soak {
   const Folder& folder_;
   std::mt19937 random_;
   Storm storm_;
+  int steps_ = 0;
   std::shared_ptr<const LiveFrame> before_;
 };
 
