@@ -75,6 +75,21 @@ void judge(std::vector<MemorySample> samples) {
 
 }  // namespace
 
+TEST_CASE("the growth of samples is that of their line") {
+  std::vector<MemorySample> samples;
+  for (int i = 0; i <= 10; ++i) samples.push_back({10.0 * i, 500.0 + 3 * i + (i % 2 == 0 ? 1 : -1), 7});
+  CHECK(growth(samples, &MemorySample::heap) == doctest::Approx(30).epsilon(0.01));
+  CHECK(growth(samples, &MemorySample::resident) == doctest::Approx(0));
+  CHECK(growth({}, &MemorySample::heap) == 0);
+}
+
+TEST_CASE("the heap's bytes are seen") {
+  const double before = heap_bytes();
+  const std::vector<char> block(std::size_t{64} << 20, 'x');
+  CHECK(heap_bytes() - before >= static_cast<double>(block.size()));
+  CHECK(heap_bytes() - before < 1.1 * static_cast<double>(block.size()));
+}
+
 TEST_CASE("under random use no frame is stale, nothing fails, and memory stays as it is") {
   const double seconds = number_of("MEANDER_SOAK_SECONDS", 10);
   const auto seed = static_cast<unsigned>(number_of("MEANDER_SOAK_SEED", 1));
