@@ -43,6 +43,8 @@ struct PreviewLook {
 [[nodiscard]] bool shows_live(const PreviewLook& look, double across);
 
 struct PreviewState {
+  static constexpr std::size_t kMostMessages = 32;
+
   explicit PreviewState(SceneDocument document);
 
   EditHistory history;
@@ -57,7 +59,9 @@ struct PreviewState {
   std::uint64_t next_message = 1;
   bool quit = false;
 
+  /// Errors stay until they are dismissed, the newest kMostMessages of them all.
   void tell(MessageKind kind, std::string text, std::vector<std::string> details = {}) {
+    if (messages.size() >= kMostMessages) messages.erase(messages.begin());
     messages.push_back({next_message++, kind, std::move(text), std::move(details), 0});
   }
   /// Takes back the message of that number, if it is still there.

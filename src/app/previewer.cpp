@@ -21,6 +21,22 @@ constexpr double kMessageSeconds = 6;
 constexpr float kBackdrop = 0.105f;  // around the picture
 constexpr int kSettleFrames = 3;     // Dear ImGui needs some frames to come to rest
 
+// Everything that an image depends on, as text: what the display does with it is left out.
+std::string trace_text(const PreviewState& state) {
+  std::string text = state.history.now().text();
+  if (const std::size_t begin = text.find("[display]"); begin != std::string::npos) {
+    const std::size_t end = text.find("\n[", begin);
+    text.erase(begin, end == std::string::npos ? std::string::npos : end - begin);
+  }
+  const PreviewSettings& settings = state.settings;
+  text += std::to_string(settings.scale) + ' ' + std::to_string(static_cast<int>(settings.estimator));
+  if (settings.region_only && state.look.region) {
+    const PixelBox& box = *state.look.region;
+    for (const int edge : {box.x0, box.y0, box.x1, box.y1}) text += ' ' + std::to_string(edge);
+  }
+  return text;
+}
+
 }  // namespace
 
 Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions options, float scale)
@@ -39,6 +55,7 @@ Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions
   clipboard_ = {[] { return std::string(); }, [](const std::string&) {}};
   files_.watch(state_.history.now().watched_files());
   shaders_.watch(shader_files());
+  submitted_ = trace_text(state_);
   submit(false);
 }
 
@@ -57,7 +74,7 @@ std::string Previewer::title() const {
 }
 
 std::uint64_t Previewer::spp() const {
-  if (!submitted_.empty() && interactive_) return 0;
+  if (interactive_) return 0;
   const auto& frame = pictures_.newest();
   return frame && frame->generation == generation_ && frame->scale == 1 ? frame->spp : 0;
 }
@@ -88,33 +105,12 @@ void Previewer::submit(bool interactive) {
   interactive_ = interactive;
 }
 
-namespace {
-
-// Everything that an image depends on, as text: what the display does with it is left out.
-std::string trace_text(const PreviewState& state) {
-  std::string text = state.history.now().text();
-  if (const std::size_t begin = text.find("[display]"); begin != std::string::npos) {
-    const std::size_t end = text.find("\n[", begin);
-    text.erase(begin, end == std::string::npos ? std::string::npos : end - begin);
-  }
-  const PreviewSettings& settings = state.settings;
-  text += std::to_string(settings.scale) + ' ' + std::to_string(static_cast<int>(settings.estimator));
-  if (settings.region_only && state.look.region) {
-    const PixelBox& box = *state.look.region;
-    for (const int edge : {box.x0, box.y0, box.x1, box.y1}) text += ' ' + std::to_string(edge);
-  }
-  return text;
-}
-
-}  // namespace
-
 void Previewer::submit_if_changed(double now) {
   std::string wanted = trace_text(state_);
   if (wanted != submitted_) {
-    const bool first = submitted_.empty();
     submitted_ = std::move(wanted);
     last_change_ = now;
-    if (!first) submit(gesture_);
+    submit(gesture_);
     return;
   }
   if (interactive_ && (!gesture_ || now - last_change_ > kRefineSeconds)) submit(false);

@@ -19,6 +19,22 @@ std::string at_place(const Place& place, const std::string& message) {
   return text;
 }
 
+// A message may quote what a file or a command line holds: control characters, which would break the line or
+// drive the terminal, are spelt out.
+std::string one_line(const std::string& message) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string line;
+  for (const char c : message) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte != 0x7f) {
+      line += c;
+    } else {
+      line += {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
+    }
+  }
+  return line;
+}
+
 // Levenshtein 1966, one row at a time.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -37,8 +53,11 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+Error::Error(Fault fault, const std::string& message)
+    : std::runtime_error(one_line(message)), fault_(fault) {}
+
 Error::Error(const Place& place, const std::string& message)
-    : std::runtime_error(at_place(place, message)), fault_(Fault::input) {}
+    : std::runtime_error(one_line(at_place(place, message))), fault_(Fault::input) {}
 
 std::string nearest_name(const std::string& name, std::span<const std::string_view> known) {
   std::string best;

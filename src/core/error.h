@@ -19,10 +19,11 @@ struct Place {
 /// What went wrong decides the exit code: 2 for wrong use or bad input, 3 for a failure at run time.
 enum class Fault { input = 2, runtime = 3 };
 
-/// One line that says what is wrong, with the wrong value and the right ones. `main` alone prints it.
+/// One line that says what is wrong, with the wrong value and the right ones. `main` alone prints it. Control
+/// characters in the message, as of a quoted file, are spelt out (\x0a).
 class Error : public std::runtime_error {
  public:
-  Error(Fault fault, const std::string& message) : std::runtime_error(message), fault_(fault) {}
+  Error(Fault fault, const std::string& message);
   /// Bad input at a place: the line reads `file:line:column: message`.
   Error(const Place& place, const std::string& message);
 

@@ -9,7 +9,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <new>
@@ -17,15 +16,15 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "io/child_reader.h"
+#include "io/image_import.h"
 
 namespace meander {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 30;
-constexpr int kMostChannels = 64;
-constexpr int kBand = 64;  // rows read at a time
+constexpr std::uint64_t kSurelyFits = std::uint64_t{1} << 26;  // values that are taken at once
 
 // The library's errors are several lines at times, and start with its own name for the file.
 std::string one_line(std::string text) {
@@ -95,82 +94,43 @@ void check_exists(const std::string& path) {
   if (fs::file_size(path, failed) == 0 && !failed) throw cannot_read(path, "it is empty");
 }
 
-void check_spec(const std::string& path, const OIIO::ImageSpec& spec) {
-  const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels";
-  if (spec.deep) throw cannot_read(path, "deep images are not supported");
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
-    throw cannot_read(path, "it holds no flat picture: " + size);
-  }
-  if (std::int64_t{spec.width} * spec.height > kMostPixels) {
-    throw cannot_read(path, "it is too large: " + size + ", at most " + std::to_string(kMostPixels));
-  }
-  if (spec.nchannels > kMostChannels) {
-    throw cannot_read(path, "it has too many channels: " + std::to_string(spec.nchannels) + ", at most " +
-                                std::to_string(kMostChannels));
-  }
-  if (const int orientation = spec.get_int_attribute("Orientation", 1); orientation != 1) {
-    throw cannot_read(path, "it is stored turned or mirrored (orientation " + std::to_string(orientation) +
-                                "); store it upright");
+bool is_sound(const ImageImportHeader& header, std::size_t file_bytes) {
+  const bool flat = header.width >= 1 && header.height >= 1 && header.channels >= 1;
+  return flat && header.channels <= kMostChannels && fits_file(header, file_bytes) &&
+         std::int64_t{header.width} * header.height <= kMostPixels;
+}
+
+void receive_pixels(ChildReader& child, std::uint64_t count, std::vector<float>& values) {
+  if (count <= kSurelyFits) values.reserve(count);
+  while (values.size() < count) {
+    const auto band = child.receive<std::uint64_t>();
+    if (band > count - values.size()) child.fail_of_nonsense();
+    if (band == 0) child.refuse_content(child.receive_text());
+    child.receive_many(values, values.size() + band);
   }
 }
 
-// Whether a PNG's chunks (length, type, data, checksum) run unbroken to its end chunk. Asked first because
-// libpng prints to the terminal when a file ends early, and leaks.
-bool is_whole_png(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::error_code failed;
-  const std::uint64_t size = fs::file_size(path, failed);
-  std::uint64_t position = 8;  // after the signature, which the library checks
-  std::array<unsigned char, 8> head{};
-  while (!failed && position + 12 <= size) {
-    in.seekg(static_cast<std::streamoff>(position));
-    if (!in.read(reinterpret_cast<char*>(head.data()), head.size())) return false;
-    const std::uint64_t length = std::uint64_t{head[0]} << 24 | head[1] << 16 | head[2] << 8 | head[3];
-    position += 12 + length;
-    if (std::equal(head.begin() + 4, head.end(), "IEND")) return position <= size;
+LoadedImage receive_image(ChildReader& child) {
+  const auto header = child.receive<ImageImportHeader>();
+  if (!is_sound(header, child.file_bytes())) child.fail_of_nonsense();
+  LoadedImage loaded;
+  loaded.placement = header.placement;
+  loaded.encoded = header.encoded;
+  for (int c = 0; c < header.channels; ++c) loaded.channels.push_back(child.receive_text());
+  for (std::uint64_t i = 0; i < header.texts; ++i) {
+    std::string name = child.receive_text();
+    loaded.attributes.text.emplace_back(std::move(name), child.receive_text());
   }
-  return false;
-}
-
-bool read_band(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, int begin, int end, float* to) {
-  if (spec.tile_width > 0) {
-    return in.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0, spec.nchannels,
-                         OIIO::TypeDesc::FLOAT, to);
+  for (std::uint64_t i = 0; i < header.integers; ++i) {
+    std::string name = child.receive_text();
+    loaded.attributes.integers.emplace_back(std::move(name), child.receive<std::int64_t>());
   }
-  return in.read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, to);
-}
-
-// Band by band into reserved, untouched memory: a short file that claims to be huge fails before it costs
-// any.
-Image read_pixels(const std::string& path, OIIO::ImageInput& in, const OIIO::ImageSpec& spec) {
-  Image image;
-  image.width = spec.width;
-  image.height = spec.height;
-  image.channels = spec.nchannels;
-  const std::size_t row = static_cast<std::size_t>(spec.width) * spec.nchannels;
-  image.values.reserve(row * spec.height);
-  const int band = spec.tile_width > 0 ? spec.tile_height : kBand;
-  for (int y = 0; y < spec.height; y += band) {
-    const int rows = std::min(band, spec.height - y);
-    image.values.resize(row * (y + rows));
-    if (!read_band(in, spec, spec.y + y, spec.y + y + rows, image.values.data() + row * y)) {
-      throw cannot_read(path, in.geterror());
-    }
-  }
-  return image;
-}
-
-ImageAttributes attributes_of(const OIIO::ImageSpec& spec) {
-  ImageAttributes attributes;
-  for (const OIIO::ParamValue& value : spec.extra_attribs) {
-    const std::string name = value.name().string();
-    if (value.type() == OIIO::TypeDesc::STRING) {
-      attributes.text.emplace_back(name, value.get_string());
-    } else if (value.type() == OIIO::TypeDesc::INT) {
-      attributes.integers.emplace_back(name, value.get_int());
-    }
-  }
-  return attributes;
+  Image& image = loaded.image;
+  image.width = header.width;
+  image.height = header.height;
+  image.channels = header.channels;
+  receive_pixels(child, value_count(header), image.values);
+  return loaded;
 }
 
 // The number that the whole of a text attribute spells.
@@ -223,30 +183,17 @@ void write_png(const std::string& path, const Image8& frame, const ImageAttribut
 }
 
 LoadedImage read_image(const std::string& path) {
-  keep_to_this_thread();
   const std::string reader = reader_for(path);
   check_exists(path);
-  if (reader == "png" && !is_whole_png(path)) throw cannot_read(path, "it is no PNG, or not all of one");
-  const auto in = OIIO::ImageInput::create(reader);
-  if (!in) throw cannot_read(path, OIIO::geterror());
-  OIIO::ImageSpec wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);  // the values as they are stored
-  OIIO::ImageSpec spec;
-  if (!in->open(path, spec, wishes)) throw cannot_read(path, in->geterror());
-  check_spec(path, spec);
-  LoadedImage loaded;
+  const ReaderWords::Refusal refuse = [&](const std::string& reason) { return cannot_read(path, reason); };
   try {
-    loaded.image = read_pixels(path, *in, spec);
+    ChildReader child(
+        path, {"the image reader", refuse, refuse},
+        [&](const FileBytes& content, Answer& answer) { import_image(content, reader, answer); });
+    return receive_image(child);
   } catch (const std::bad_alloc&) {
-    throw cannot_read(path, "not enough memory for " + std::to_string(spec.width) + " x " +
-                                std::to_string(spec.height) + " pixels");
+    throw cannot_read(path, "not enough memory for its pixels");
   }
-  loaded.channels.assign(spec.channelnames.begin(), spec.channelnames.end());
-  loaded.attributes = attributes_of(spec);
-  loaded.placement = {spec.x - spec.full_x, spec.y - spec.full_y, spec.full_width, spec.full_height};
-  loaded.encoded = reader == "png" || spec.format == OIIO::TypeDesc::UINT8;
-  if (!in->close()) throw cannot_read(path, in->geterror());
-  return loaded;
 }
 
 std::optional<std::int64_t> find_integer(const ImageAttributes& attributes, const std::string& name) {

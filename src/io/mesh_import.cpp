@@ -4,141 +4,24 @@
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <fcntl.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
-#include <cstring>
+#include <cstdlib>
 #include <stdexcept>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "math/types.h"
 #include "scene/mesh.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define MEANDER_SHADOW_MEMORY
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define MEANDER_SHADOW_MEMORY
-#endif
-#endif
-
 namespace meander {
 
 namespace {
 
-constexpr int kFile = 0;
-constexpr int kAnswer = 3;
-
-void limit(int resource, rlim_t value) {
-  rlimit limits{};
-  if (getrlimit(resource, &limits) != 0) return;
-  limits.rlim_max = std::min(limits.rlim_max, value);
-  limits.rlim_cur = limits.rlim_max;
-  setrlimit(resource, &limits);
-}
-
-// The parent's address space was inherited and counts too. A sanitizer's shadow is too large for any limit.
-void limit_memory() {
-#ifndef MEANDER_SHADOW_MEMORY
-  constexpr rlim_t kAllowance = rlim_t{8} << 30;
-  std::array<char, 64> text{};
-  const int statm = open("/proc/self/statm", O_RDONLY);
-  if (statm < 0) return;
-  unsigned long pages = 0;
-  if (read(statm, text.data(), text.size() - 1) > 0 && std::sscanf(text.data(), "%lu", &pages) == 1) {
-    limit(RLIMIT_AS, pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + kAllowance);
-  }
-  close(statm);
-#endif
-}
-
-// Leaves the file as descriptor 0, the answer as 3, silence as 1 and 2; the kernel refuses any other.
-void shut_in(const MeshImportJob& job, int cpu_seconds) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // the parent's death is the child's
-  for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  limit_memory();
-  const int file = fcntl(job.file, F_DUPFD, kAnswer + 1);
-  const int answer = fcntl(job.answer, F_DUPFD, kAnswer + 1);
-  const int silence = open("/dev/null", O_RDWR);
-  if (file < 0 || answer < 0 || silence < 0) _exit(1);
-  if (dup2(silence, 1) < 0 || dup2(silence, 2) < 0) _exit(1);
-  if (dup2(file, kFile) < 0 || dup2(answer, kAnswer) < 0) _exit(1);
-  closefrom(kAnswer + 1);
-  limit(RLIMIT_NOFILE, 0);
-  limit(RLIMIT_CORE, 0);
-  // One second between the signal that has a name in the error line and the one that cannot be held off.
-  const rlimit cpu{static_cast<rlim_t>(cpu_seconds), static_cast<rlim_t>(cpu_seconds) + 1};
-  setrlimit(RLIMIT_CPU, &cpu);
-}
-
-// Buffered bytes to the parent; a parent that is gone ends the process.
-class Answer {
- public:
-  Answer() { buffer_.reserve(kBytes); }
-
-  template <typename T>
-  void put(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    put_bytes(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void put_bytes(const char* bytes, std::size_t count) {
-    if (buffer_.size() + count > kBytes) flush();
-    buffer_.insert(buffer_.end(), bytes, bytes + count);
-  }
-  void flush() {
-    for (std::size_t sent = 0; sent < buffer_.size();) {
-      const ssize_t written = write(kAnswer, buffer_.data() + sent, buffer_.size() - sent);
-      if (written < 0 && errno != EINTR) _exit(1);
-      if (written > 0) sent += static_cast<std::size_t>(written);
-    }
-    buffer_.clear();
-  }
-
- private:
-  static constexpr std::size_t kBytes = 1 << 16;
-  std::vector<char> buffer_;
-};
-
-[[noreturn]] void answer_error(std::string_view message) {
-  const std::size_t size = std::min<std::size_t>(message.size(), kMaxMeshErrorBytes);
-  Answer answer;
-  answer.put(MeshImportHeader{.error_bytes = size});
-  answer.put_bytes(message.data(), size);
-  answer.flush();
-  _exit(0);
-}
-
-std::vector<std::uint8_t> read_file(std::size_t bytes) {
-  std::vector<std::uint8_t> content(bytes);
-  std::size_t have = 0;
-  while (have < bytes) {
-    const ssize_t got = read(kFile, content.data() + have, bytes - have);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw std::runtime_error(std::strerror(errno));
-    if (got == 0) break;
-    have += static_cast<std::size_t>(got);
-  }
-  content.resize(have);
-  return content;
-}
-
 // In a header that does not end, assimp 5.2 looks for the end forever.
-void check_ply_header(const std::vector<std::uint8_t>& content) {
+void check_ply_header(const FileBytes& content) {
   constexpr std::string_view kEnd = "end_header";
   const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
   for (std::size_t at = text.find(kEnd, 1); at != text.npos; at = text.find(kEnd, at + 1)) {
@@ -152,8 +35,7 @@ void check_ply_header(const std::vector<std::uint8_t>& content) {
 // All the files there are, as far as assimp can tell: the one that was read. No materials, images or buffers.
 class OneFile final : public Assimp::IOSystem {
  public:
-  OneFile(const std::string& name, const std::vector<std::uint8_t>& content)
-      : name_(name), content_(content) {}
+  OneFile(const std::string& name, const FileBytes& content) : name_(name), content_(content) {}
 
   bool Exists(const char* name) const override { return name_ == name; }
   char getOsSeparator() const override { return '/'; }
@@ -165,7 +47,7 @@ class OneFile final : public Assimp::IOSystem {
 
  private:
   const std::string& name_;
-  const std::vector<std::uint8_t>& content_;
+  const FileBytes& content_;
 };
 
 std::string_view importer_name(MeshFormat format) {
@@ -267,7 +149,7 @@ void put_triangles(Answer& answer, const Instance& instance, std::uint32_t first
     if (face.mNumIndices != 3) continue;
     Triangle triangle{};
     for (int k = 0; k < 3; ++k) {
-      if (face.mIndices[k] >= instance.mesh->mNumVertices) _exit(1);  // assimp promised otherwise
+      if (face.mIndices[k] >= instance.mesh->mNumVertices) std::_Exit(1);  // assimp promised otherwise
       triangle[k] = first_position + face.mIndices[k];
     }
     if (mirrored) std::swap(triangle[1], triangle[2]);
@@ -275,7 +157,7 @@ void put_triangles(Answer& answer, const Instance& instance, std::uint32_t first
   }
 }
 
-void answer_scene(const aiScene& scene, MeshFormat format) {
+void put_scene(Answer& answer, const aiScene& scene, MeshFormat format) {
   const std::vector<Instance> instances = collect_instances(scene);
   MeshImportHeader header;
   bool normals = false;
@@ -288,7 +170,6 @@ void answer_scene(const aiScene& scene, MeshFormat format) {
     }
   }
   if (normals && format != MeshFormat::stl) header.normals = header.positions;
-  Answer answer;
   answer.put(header);
   for (const Instance& instance : instances) put_positions(answer, instance);
   if (header.normals != 0) {
@@ -299,35 +180,18 @@ void answer_scene(const aiScene& scene, MeshFormat format) {
     put_triangles(answer, instance, first_position);
     first_position += instance.mesh->mNumVertices;
   }
-  answer.flush();
 }
 
 }  // namespace
 
-int mesh_import_cpu_seconds(std::size_t bytes) noexcept {
-  constexpr std::size_t kLongest = 60;
-  return static_cast<int>(std::min(kLongest, 2 + (bytes >> 20)));
-}
-
-void run_mesh_import(const MeshImportJob& job) {
-  try {
-    shut_in(job, mesh_import_cpu_seconds(job.bytes));
-    const std::vector<std::uint8_t> content = read_file(job.bytes);
-    if (job.format == MeshFormat::ply) check_ply_header(content);
-    Assimp::Importer importer;
-    keep_one_importer(importer, job.format);
-    importer.SetIOHandler(new OneFile(job.name, content));
-    const aiScene* scene = importer.ReadFile(job.name, aiProcess_Triangulate);
-    if (scene == nullptr) answer_error(importer.GetErrorString());
-    answer_scene(*scene, job.format);
-    _exit(0);
-  } catch (const std::bad_alloc&) {
-    answer_error("it needs more memory than the importer may have");
-  } catch (const std::exception& error) {
-    answer_error(error.what());
-  } catch (...) {
-    answer_error("unknown error");
-  }
+void import_mesh(const FileBytes& content, MeshFormat format, const std::string& name, Answer& answer) {
+  if (format == MeshFormat::ply) check_ply_header(content);
+  Assimp::Importer importer;
+  keep_one_importer(importer, format);
+  importer.SetIOHandler(new OneFile(name, content));
+  const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
+  if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
+  put_scene(answer, *scene, format);
 }
 
 }  // namespace meander

@@ -14,12 +14,16 @@
 namespace meander {
 namespace {
 
+constexpr std::uintmax_t kLargestText = std::uintmax_t{16} << 20;
+
 std::string read_text(const std::string& path) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code))
     throw Error(Place{path, 0, 0}, "is a folder, not a scene file");
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
     throw Error(Place{path, 0, 0}, "is not a regular file");
+  if (const auto bytes = std::filesystem::file_size(path, code); !code && bytes > kLargestText)
+    throw Error(Place{path, 0, 0}, "is larger than 16 MiB, too large for a scene file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Error(Place{path, 0, 0}, "cannot open: No such file or directory");
   std::ostringstream text;

@@ -38,3 +38,11 @@ TEST_CASE("the selected material is that of the first translucent object, else t
   CHECK(selected("") == "wax");
   CHECK(PreviewState(SceneDocument::from_text(grey, "s.toml")).material.empty());
 }
+
+TEST_CASE("messages that nobody dismisses do not pile up") {
+  PreviewState state(SceneDocument::from_text("", "s.toml"));
+  for (int i = 0; i < 1000; ++i) state.tell(MessageKind::error, "error " + std::to_string(i));
+  REQUIRE(state.messages.size() == PreviewState::kMostMessages);
+  CHECK(state.messages.back().text == "error 999");
+  CHECK(state.messages.back().id == 1000);
+}

@@ -1,116 +1,13 @@
-// What must hold in a storm over the previewer, in every frame and at the end. Run it under the sanitizers
-// too.
+// A storm over the previewer, of a seed and a number of steps (MEANDER_STORM_SEED, MEANDER_STORM_STEPS). Run
+// it under the sanitizers too.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdlib>
-#include <thread>
 
 #include "app/storm.h"
-#include "gl/state.h"
-#include "render/first_hits.h"
 
 namespace meander {
 namespace {
-
-constexpr std::uint8_t kBackdrop = 27;  // around the picture
-
-}  // namespace
-
-// Every state shows its first picture, also a paused one.
-void Storm::await_picture() {
-  const Timer timer;
-  while (!previewer_.first_image_seconds() && timer.seconds() < 60) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    frame();
-  }
-  CHECK(previewer_.first_image_seconds().has_value());
-}
-
-// The picture lies in the middle of the image area, whatever its shape; or in that of the whole window.
-void Storm::check_picture(const Image8& shown) const {
-  const Area& image = layout_of(static_cast<float>(width_), static_cast<float>(height_), false).image;
-  const std::array<std::array<int, 2>, 2> middles{
-      {{static_cast<int>(image.x + image.width / 2), static_cast<int>(image.y + image.height / 2)},
-       {width_ / 2, height_ / 2}}};
-  int drawn = 0;
-  for (const auto& [x, y] : middles) {
-    for (int i = 0; i < 9; ++i) {
-      const int px = std::clamp(x + i % 3 - 1, 0, width_ - 1);
-      const int py = std::clamp(y + i / 3 - 1, 0, height_ - 1);
-      const std::uint8_t* rgb =
-          &shown.rgb[3 * (static_cast<std::size_t>(py) * static_cast<std::size_t>(width_) +
-                          static_cast<std::size_t>(px))];
-      drawn += rgb[0] != kBackdrop || rgb[1] != kBackdrop || rgb[2] != kBackdrop;
-    }
-  }
-  CHECK(drawn > 0);
-}
-
-void Storm::frame() {
-  (void)previewer_.update(timer_.seconds());
-  target_->bind(width_, height_);
-  FrameShape shape;
-  shape.pixels_wide = width_;
-  shape.pixels_high = height_;
-  previewer_.draw(shape);
-  CHECK(context_.functions().get_error() == GL_NO_ERROR);
-  const auto& newest = previewer_.pictures().newest();
-  if (!newest) return;
-  CHECK(newest->generation >= generation_);
-  generation_ = newest->generation;
-  pictures += newest.get() != last_;
-  last_ = newest.get();
-  if (previewer_.pictures().live()) check_picture(target_->read(width_, height_));
-}
-
-// Lets go of everything and waits for the picture of all that was asked.
-void Storm::calm_down() {
-  for (int button = 0; button < 3; ++button) send(InputKind::button, 0, 0, button, false);
-  send(InputKind::focus, 0, 0, 0, false);
-  resize(320, 240);
-  previewer_.carry_out({CommandKind::budget_noise, 0, 0, {}, {}});
-  previewer_.carry_out({CommandKind::budget_seconds, 0, 0, {}, {}});
-  previewer_.carry_out({CommandKind::budget_spp, 8, 0, {}, {}});
-  const Timer timer;
-  while (timer.seconds() < 300) {
-    frame();
-    if (previewer_.spp() == 8) return;
-    const bool paused = previewer_.idle() && timer.seconds() > 2;
-    if (paused) {
-      previewer_.carry_out({CommandKind::pause, 0, 0, {}, {}});
-      for (int i = 0; i < 200 && previewer_.idle(); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-}
-
-namespace {
-
-// The picture of the previewer's state, rendered at once.
-FilmPlanes fresh_planes(const PreviewState& state, std::uint64_t spp) {
-  Scene scene = state.history.now().scene().scene;
-  const FilmSize film = scene.film;
-  scene.film = scaled_film(film, state.settings.scale);
-  Job job;
-  if (state.settings.region_only && state.look.region) {
-    const PixelBox box = scaled_box(*state.look.region, film, state.settings.scale);
-    job.crop = Tile{box.x0, box.y0, box.x1, box.y1};
-  }
-  job.scene = std::make_shared<const Scene>(std::move(scene));
-  job.geometry = std::make_shared<const Geometry>(*job.scene, 2);
-  job.seed = state.settings.seed;
-  job.estimator = state.settings.estimator;
-  job.threads = 2;
-  const std::atomic<bool> never{false};
-  Budget budget;
-  budget.spp = spp;
-  const Rendering rendering = render(job, budget, never, [](const Rendering&) {});
-  const Image normals = first_hits(job, never).normals;
-  return resolve_planes(rendering.film, &normals);
-}
 
 unsigned seed_of_run() {
   const char* asked = std::getenv("MEANDER_STORM_SEED");

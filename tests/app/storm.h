@@ -74,7 +74,14 @@ class Storm {
   void frame();
   void await_picture();
   void calm_down();
+  void resize(int width, int height);
+  void carry_out(const Command& command) { previewer_.carry_out(command); }
   [[nodiscard]] const Previewer& previewer() const { return previewer_; }
+  [[nodiscard]] const Functions& gl() const { return context_.functions(); }
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  /// What the last frame showed.
+  [[nodiscard]] Image8 screen() { return target_->read(width_, height_); }
   int refused = 0;   // edits that no scene allows
   int pictures = 0;  // frames that showed another picture than the frame before
 
@@ -100,7 +107,6 @@ class Storm {
   void wheel();
   void drop();
   void undo_run();
-  void resize(int width, int height);
   void send(InputKind kind, double x, double y, int code = 0, bool down = false, Modifiers modifiers = {});
   void check_picture(const Image8& shown) const;
 
@@ -115,5 +121,8 @@ class Storm {
   std::uint64_t generation_ = 0;
   const LiveFrame* last_ = nullptr;
 };
+
+/// The picture of the previewer's state, rendered at once.
+[[nodiscard]] FilmPlanes fresh_planes(const PreviewState& state, std::uint64_t spp);
 
 }  // namespace meander

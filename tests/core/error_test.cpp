@@ -72,3 +72,9 @@ TEST_CASE("a timer counts forward from its making") {
   CHECK(now > before);
   CHECK(now < 60.0);
 }
+
+TEST_CASE("an error is one line that drives no terminal, whatever it quotes") {
+  CHECK(std::string(Error(Place{"a\nb.toml", 1, 2}, "unknown key '\x1b[31m\x7f\t'").what()) ==
+        "a\\x0ab.toml:1:2: unknown key '\\x1b[31m\\x7f\\x09'");
+  CHECK(std::string(Error(Fault::input, "no 'a\r\n\f' and no 'é'").what()) == "no 'a\\x0d\\x0a\\x0c' and no 'é'");
+}

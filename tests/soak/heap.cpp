@@ -1,0 +1,49 @@
+#include "soak/heap.h"
+
+#include <malloc.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#ifdef __SANITIZE_ADDRESS__
+extern "C" std::size_t
+__sanitizer_get_current_allocated_bytes();  // of its runtime; GCC 12 has no header for it
+#endif
+
+namespace meander {
+
+double heap_bytes() {
+#ifdef __SANITIZE_ADDRESS__
+  return static_cast<double>(__sanitizer_get_current_allocated_bytes());
+#else
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+#endif
+}
+
+double resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  double total = 0;
+  double resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+double growth(const std::vector<MemorySample>& samples, double MemorySample::*quantity) {
+  if (samples.size() < 2) return 0;
+  double mean_time = 0;
+  double mean = 0;
+  for (const MemorySample& sample : samples) {
+    mean_time += sample.seconds / static_cast<double>(samples.size());
+    mean += sample.*quantity / static_cast<double>(samples.size());
+  }
+  double covariance = 0;
+  double variance = 0;
+  for (const MemorySample& sample : samples) {
+    covariance += (sample.seconds - mean_time) * (sample.*quantity - mean);
+    variance += (sample.seconds - mean_time) * (sample.seconds - mean_time);
+  }
+  return variance > 0 ? covariance / variance * (samples.back().seconds - samples.front().seconds) : 0;
+}
+
+}  // namespace meander

@@ -1,0 +1,23 @@
+// What the process holds, and whether it grows.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace meander {
+
+/// Bytes in the heap that are in use.
+[[nodiscard]] double heap_bytes();
+/// Bytes of physical memory.
+[[nodiscard]] double resident_bytes();
+
+struct MemorySample {
+  double seconds = 0;
+  double heap = 0;
+  double resident = 0;
+};
+
+/// What a straight line through the samples (least squares) gains from the first to the last, in bytes.
+[[nodiscard]] double growth(const std::vector<MemorySample>& samples, double MemorySample::*quantity);
+
+}  // namespace meander
