@@ -51,7 +51,7 @@ mutant lane_not_moved half_space_lanes walk/lane_kernels.cpp \
 mutant lane_uniform_paths infinite_moments_lanes walk/lane_kernels.cpp \
   'hn::Div(hn::Neg(log_lanes(F(), hn::Sub(set(1), xi))), sigma)' 'hn::Div(hn::Add(xi, xi), sigma)'
 mutant lane_backward_not_swapped half_space_backward_lanes walk/lane_kernels.cpp \
-  'one_minus = one_plus;' ''
+  'if (g < 0) {' 'if (false) {'
 mutant lane_tallies_after_the_albedo sphere_fresnel_lanes walk/lane_kernels.cpp \
   'const VF left = hn::Mul(carried, set(1 - model_.medium.albedo.x));' \
   'const VF left = hn::Mul(carried, set(model_.medium.albedo.x * (1 - model_.medium.albedo.x)));'
@@ -61,7 +61,7 @@ mutant lane_history_twice chromatic_slab_lanes walk/lane_walks.h \
   'if (walker.weight.order == put.order) {' 'if (true) {'
 mutant lane_short_ray_skipped slab_forward_lanes walk/lane_walks.h \
   'return world_.first_crossing(walker.position, walker.direction, distance);' \
-  'if (distance < Real(0.02)) return {CrossingKind::none, distance, walker.position + distance * walker.direction};
+  'if (distance < Real(0.2)) return {CrossingKind::none, distance, walker.position + distance * walker.direction};
       return world_.first_crossing(walker.position, walker.direction, distance);'
 
 # Meshes: empty balls and short rays.
@@ -83,13 +83,15 @@ mutant first_exit_kept mean_path_plates_lanes trace/packet_rays.cpp \
   '(found_.kind == ShortExit::Kind::exit && t[i] == distance_)' 'found_.kind == ShortExit::Kind::exit'
 mutant entries_are_exits mean_path_knot_lanes trace/packet_rays.cpp 'hn::Gt(along, hn::Zero(F()))' 'met'
 mutant packet_planes_shrunk mean_path_knot_lanes trace/packet_rays.cpp \
-  'hn::And(hn::Le(from, slack), hn::Ge(to, hn::Neg(slack)))' 'hn::And(hn::Le(from, hn::Neg(slack)), hn::Ge(to, hn::Set(F(), 0.002f)))'
+  'hn::And(hn::Le(from, slack), hn::Ge(to, hn::Neg(slack)))' \
+  'hn::And(hn::Le(from, hn::Neg(slack)), hn::Ge(to, hn::Set(F(), 0.002f)))'
 
 # Paths.
 mutant shadow_roulette_without_factor picture_fog_lanes walk/shadow_roulette.h 'return 1 / p;' 'return 1;'
 mutant hero_always_red picture_furnace_lanes render/progressive.cpp '+ k) % 3);' '+ k) % 3) * 0;'
 mutant pixels_without_corners picture_lit_lanes render/empty_pixels.cpp \
   'job.geometry->radius(i), spread));' 'job.geometry->radius(i), 0));'
+mutant lane_backward_density picture_lit_lanes walk/lane_kernels.cpp 'one_minus = one_plus;' ''
 mutant light_found_not_shared picture_lit walk/passage.inl \
   'average(passed) * pdf + average(weight.ratio) * sampled' 'average(passed) * pdf'
 mutant no_light_at_collisions picture_fog_lanes walk/lane_walks.h \

@@ -1,4 +1,5 @@
-// Oracles of walks in closed meshes: in lanes they take their steps in empty balls, and short rays by packets.
+// Oracles of walks in closed meshes: in lanes they take their steps in empty balls, and short rays by
+// packets.
 #include <algorithm>
 #include <vector>
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # mutation.sh CXX SRC DIR LIBRARY...: plants one bug of bugs.sh at a time into a copy of SRC, builds the oracles against
 # the copy, and requires that the oracle named for the bug fails. The true source must pass them all. The source
-# itself is never touched. BUGS="NAME..." in the environment plants only those.
+# itself is never touched. BUGS="NAME..." in the environment plants only those. After the oracle stands how many of the
+# program's saw the bug; what each said is in DIR/said.
 set -euo pipefail
 cxx=$1 source=$(realpath "$2")
 mkdir -p "$3"
@@ -44,7 +45,7 @@ compile_all() { xargs -r -P "$(nproc)" -I '{}' bash -c 'compile "$@"' compile "$
 
 # link PROGRAM OBJECT...: DIR/PROGRAM; what the objects leave open comes from the true source.
 link() {
-  "$cxx" -o "$dir/$1" "${@:2}" "$dir/true/rooms.a" "${libraries[@]}" -Wl,--trace
+  "$cxx" -o "$dir/$1" "${@:2}" "$dir/true/rooms.a" "${libraries[@]}" -Wl,-Map="$dir/$1.map"
 }
 
 # ask PROGRAM ORACLE: its line; a walk that a bug has trapped for ever fails too.
@@ -68,7 +69,7 @@ ask_all() { "$dir/$1" | xargs -P "$(nproc)" -I '{}' bash -c 'ask "$@"' ask "$1" 
 
 # The true source: its objects, what each program takes of them, and what its oracles say.
 judge_true_source() {
-  local room program oracle
+  local room program oracle object
   rm -rf "$dir/src" "$dir/true" "$dir/patience"
   mkdir -p "$dir/src" "$dir/true" "$dir/patience" "$dir/said"
   cp -r "$source/." "$dir/src"
@@ -79,9 +80,10 @@ judge_true_source() {
   for room in "${rooms[@]}"; do ar rcs "$dir/true/rooms.a" "$dir/true/$room".*.o; done
   : >"$dir/said/true_source"
   for program in "${programs[@]}"; do
-    link "$program" "$dir/true/${program}_oracles.cpp.o" |
-      { grep -oE "(${program}_oracles|($(IFS='|' && printf %s "${rooms[*]}"))\.\w+)\.cpp\.o" || true; } |
-      sort -u >"$dir/true/$program.objects"
+    object=${program}_oracles.cpp.o
+    link "$program" "$dir/true/$object"
+    printf '%s\n' "$object" >"$dir/true/$program.objects"
+    grep -oP 'rooms\.a\(\K[^)]+' "$dir/$program.map" | sort -u >>"$dir/true/$program.objects"
     for oracle in $("$dir/$program"); do program_of[$oracle]=$program; done
     ask_all "$program" >>"$dir/said/true_source"
   done
@@ -117,7 +119,7 @@ build_mutant() {
   printf '%s\n' "${sources[@]}" | compile_all "$dir/mutant" || die "a bug in $2 does not compile"
   local objects=("$dir/mutant"/*.o)
   [[ -e $dir/mutant/$1_oracles.cpp.o ]] || objects+=("$dir/true/$1_oracles.cpp.o")
-  link "$1" "${objects[@]}" >"$dir/mutant/trace"
+  link "$1" "${objects[@]}"
 }
 
 # mutant NAME ORACLE FILE FROM TO
@@ -132,17 +134,16 @@ mutant() {
   cp "$source/$3" "$dir/src/$3"
   ask_all "$program" >"$said"
   planted=$((planted + 1))
-  local named
+  local named seen
   named=$(sed -n "s/^$2 FAILED //p" "$said")
+  seen="$(awk '$2 == "FAILED"' "$said" | wc -l) of $(wc -l <"$said")"
   if [[ -n $named ]]; then
     caught=$((caught + 1))
-    printf '%-26s caught by %-22s %s\n' "$1" "$2" "$named"
+    printf '%-29s caught by %-24s %-9s %s\n' "$1" "$2" "($seen)" "$named"
   else
     status=1
-    printf '%-26s NOT CAUGHT by %s: %s\n' "$1" "$2" "$(grep "^$2 " "$said")"
+    printf '%-29s NOT CAUGHT by %s (%s): %s\n' "$1" "$2" "$seen" "$(grep "^$2 " "$said")"
   fi
-  printf '%-26s seen by %s of %s oracles; blind:%s\n' '' "$(awk '$2 == "FAILED"' "$said" | wc -l)" \
-    "$(wc -l <"$said")" "$(awk '$2 == "passed" { printf " %s", $1 }' "$said")"
 }
 
 judge_true_source

@@ -13,7 +13,7 @@ Scene lit_ball() {
   Scene scene;
   scene.camera = {{0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 30, {}};
   scene.film = {24, 24};
-  const Medium jade{Rgb(1, 2, 4), Rgb(Real(0.95), Real(0.8), Real(0.9)), Real(0.3)};
+  const Medium jade{Rgb(1, 2, 4), Rgb(Real(0.95), Real(0.8), Real(0.9)), Real(-0.5)};
   scene.materials.push_back({"jade", TranslucentMaterial{jade, Boundary::matched}});
   scene.objects.push_back({"ball", SphereShape{}, 0, {}});
   scene.lights.push_back({"lamp", SphereLight{{1.1, 1.3, 0.4}, 0.4, Rgb(6, 5, 4)}, true});

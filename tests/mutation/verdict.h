@@ -1,5 +1,5 @@
-// What oracles say, and the program that is made of some of them: each compares the walk with a number that no
-// walk made, or holds it to what must be true of every walk.
+// What oracles say, and the program that is made of some of them: each compares the walk with a number that
+// no walk made, or holds it to what must be true of every walk.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class Verdict {
   }
   void score(const char* what, double measured, double exact, double error) {
     const double z = (measured - exact) / std::max(error, 1e-6 * std::abs(exact) + 1e-12);
-    if (std::abs(z) < std::abs(worst_)) return;
+    if (!std::isnan(z) && !(std::abs(z) >= std::abs(worst_))) return;  // what is no number stays
     worst_ = z;
     say("%s %.5g, exact %.5g, z %.1f", what, measured, exact, z);
   }

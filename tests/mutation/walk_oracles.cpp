@@ -170,8 +170,8 @@ struct NoEvents {
   [[nodiscard]] bool stop() const noexcept { return false; }
 };
 
-// Three slabs in one: optical thickness 0.1, 1 and 10, each channel in a line of reference/a_slab. A client of
-// lanes, too.
+// Three slabs in one: optical thickness 0.1, 1 and 10, each channel in a line of reference/a_slab. A client
+// of lanes, too.
 struct ChromaticSlab {
   Medium medium{Rgb(Real(0.1), 1, 10), Rgb(Real(0.1), Real(0.5), Real(0.99)), 0};
   SlabWorld world{1};
