@@ -71,17 +71,16 @@ mutant clear_part_not_added mean_path_knot_lanes walk/lane_walks.h 'crossing.dis
 mutant ball_beyond_counts own_plate_lanes scene/empty_balls.h ' || (i > 0 && !ball.holds(place))' ''
 mutant any_ball_faces own_plate_lanes scene/empty_balls.h \
   'ball.promise() == EmptyBall::facing || ball.holds(p)' 'true'
-mutant far_side_passed own_plate_lanes scene/empty_balls.h '1 - 0x1p-10f' '1.02f'
+mutant far_side_passed mean_path_knot_lanes scene/empty_balls.h '1 - 0x1p-10f' '1.02f'
 mutant lane_takes_any_ball own_plate_lanes walk/lane_kernels.cpp \
   'hn::And(in_ball(p, center, radius2), in_ball(q, center, radius2))' 'in_ball(q, center, radius2)'
-mutant balls_2_percent_large own_plate_lanes trace/empty_balls.cpp \
+mutant balls_2_percent_large mean_path_knot_lanes trace/empty_balls.cpp \
   'std::min({distance, room.x, room.y, room.z}) - body_' \
   'Real(1.02) * std::min({distance, room.x, room.y, room.z}) - body_'
 mutant all_balls_face own_plate_lanes trace/empty_balls.cpp 'std::min(radius, depth - rounding)' 'radius'
 mutant edges_missed edges trace/packet_rays.cpp 'hn::Set(F(), 0x1p-23f)' 'hn::Set(F(), -0x1p-23f)'
 mutant first_exit_kept mean_path_plates_lanes trace/packet_rays.cpp \
   '(found_.kind == ShortExit::Kind::exit && t[i] == distance_)' 'found_.kind == ShortExit::Kind::exit'
-mutant entries_are_exits mean_path_knot_lanes trace/packet_rays.cpp 'hn::Gt(along, hn::Zero(F()))' 'met'
 mutant packet_planes_shrunk mean_path_knot_lanes trace/packet_rays.cpp \
   'hn::And(hn::Le(from, slack), hn::Ge(to, hn::Neg(slack)))' \
   'hn::And(hn::Le(from, hn::Neg(slack)), hn::Ge(to, hn::Set(F(), 0.002f)))'
