@@ -88,7 +88,7 @@ mutant packet_planes_shrunk mean_path_knot_lanes trace/packet_rays.cpp \
 # Paths.
 mutant shadow_roulette_without_factor picture_fog_lanes walk/shadow_roulette.h 'return 1 / p;' 'return 1;'
 mutant hero_always_red picture_furnace_lanes render/progressive.cpp '+ k) % 3);' '+ k) % 3) * 0;'
-mutant pixels_without_corners picture_lit_lanes render/empty_pixels.cpp \
+mutant pixels_without_corners picture_outline_lanes render/empty_pixels.cpp \
   'job.geometry->radius(i), spread));' 'job.geometry->radius(i), 0));'
 mutant lane_backward_density picture_lit_lanes walk/lane_kernels.cpp 'one_minus = one_plus;' ''
 mutant light_found_not_shared picture_lit walk/passage.inl \

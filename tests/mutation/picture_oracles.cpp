@@ -41,6 +41,14 @@ Scene lamp_over_fog() {
   return scene;
 }
 
+// A bright ball in the dark: nothing but its outline.
+Scene glowing_ball() {
+  Scene scene = lit_ball();
+  scene.lights.clear();
+  scene.materials[0] = {"glow", EmissiveMaterial{Rgb(1)}};
+  return scene;
+}
+
 Film rendered(const Scene& scene, WalkCode code, std::uint64_t spp) {
   Job job;
   job.threads = 1;
@@ -84,6 +92,7 @@ void compare(Verdict& v, const Scene& scene, WalkCode code) {
 
 void picture_lit(Verdict& v, WalkCode code) { compare(v, lit_ball(), code); }
 void picture_fog(Verdict& v, WalkCode code) { compare(v, lamp_over_fog(), code); }
+void picture_outline(Verdict& v, WalkCode code) { compare(v, glowing_ball(), code); }
 
 // A white body in a white surround vanishes.
 void picture_furnace(Verdict& v, WalkCode code) {
@@ -100,8 +109,10 @@ void picture_furnace(Verdict& v, WalkCode code) {
   }
 }
 
-constexpr Oracle kOracles[]{
-    {"picture_lit", picture_lit}, {"picture_fog", picture_fog}, {"picture_furnace", picture_furnace}};
+constexpr Oracle kOracles[]{{"picture_lit", picture_lit},
+                            {"picture_fog", picture_fog},
+                            {"picture_outline", picture_outline},
+                            {"picture_furnace", picture_furnace}};
 
 }  // namespace
 
