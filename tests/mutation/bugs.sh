@@ -61,7 +61,7 @@ mutant lane_history_twice chromatic_slab_lanes walk/lane_walks.h \
   'if (walker.weight.order == put.order) {' 'if (true) {'
 mutant lane_short_ray_skipped slab_forward_lanes walk/lane_walks.h \
   'return world_.first_crossing(walker.position, walker.direction, distance);' \
-  'if (distance < Real(0.2)) return {CrossingKind::none, distance, walker.position + distance * walker.direction};
+  'if (distance < Real(0.5)) return {CrossingKind::none, distance, walker.position + distance * walker.direction};
       return world_.first_crossing(walker.position, walker.direction, distance);'
 
 # Meshes: empty balls and short rays.
@@ -90,7 +90,6 @@ mutant shadow_roulette_without_factor picture_fog_lanes walk/shadow_roulette.h '
 mutant hero_always_red picture_furnace_lanes render/progressive.cpp '+ k) % 3);' '+ k) % 3) * 0;'
 mutant pixels_without_corners picture_outline_lanes render/empty_pixels.cpp \
   'job.geometry->radius(i), spread));' 'job.geometry->radius(i), 0));'
-mutant lane_backward_density picture_lit_lanes walk/lane_kernels.cpp 'one_minus = one_plus;' ''
 mutant light_found_not_shared picture_lit walk/passage.inl \
   'average(passed) * pdf + average(weight.ratio) * sampled' 'average(passed) * pdf'
 mutant no_light_at_collisions picture_fog_lanes walk/lane_walks.h \
