@@ -1,0 +1,119 @@
+// Oracles that render: light that is sampled against light that rays find by themselves, and furnaces.
+#include "render/parallel.h"
+#include "render/progressive.h"
+#include "stats/image_error.h"
+#include "verdict.h"
+
+using namespace meander;
+
+namespace {
+
+// A chromatic matched ball in the dark under a ball of light that the camera sees and a window.
+Scene lit_ball() {
+  Scene scene;
+  scene.camera = {{0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 30, {}};
+  scene.film = {24, 24};
+  const Medium jade{Rgb(1, 2, 4), Rgb(Real(0.95), Real(0.8), Real(0.9)), Real(-0.5)};
+  scene.materials.push_back({"jade", TranslucentMaterial{jade, Boundary::matched}});
+  scene.objects.push_back({"ball", SphereShape{}, 0, {}});
+  scene.lights.push_back({"lamp", SphereLight{{1.1, 1.3, 0.4}, 0.4, Rgb(6, 5, 4)}, true});
+  scene.lights.push_back(
+      {"window", RectangleLight{{-2, 1.5, 1}, {0, 0, 0}, {0, 1, 0}, 1.5, 1.5, Rgb(3, 4, 5)}, false});
+  return scene;
+}
+
+// A white ball in a white surround.
+Scene white_ball() {
+  Scene scene = lit_ball();
+  scene.lights.clear();
+  scene.environment.radiance = Rgb(1);
+  const Medium white{Rgb(1, 3, 9), Rgb(1), Real(0.5)};
+  scene.materials[0] = {"white", TranslucentMaterial{white, Boundary::matched}};
+  return scene;
+}
+
+// One light in a grey medium, so deep in it that most shadow rays are left out.
+Scene lamp_over_fog() {
+  Scene scene = lit_ball();
+  scene.lights.pop_back();
+  const Medium fog{Rgb(8), Rgb(Real(0.98)), Real(0.5)};
+  scene.materials[0] = {"fog", TranslucentMaterial{fog, Boundary::matched}};
+  return scene;
+}
+
+// A bright ball in the dark: nothing but its outline.
+Scene glowing_ball() {
+  Scene scene = lit_ball();
+  scene.lights.clear();
+  scene.materials[0] = {"glow", EmissiveMaterial{Rgb(1)}};
+  return scene;
+}
+
+Film rendered(const Scene& scene, WalkCode code, std::uint64_t spp) {
+  Job job;
+  job.threads = 1;
+  job.walk = code;
+  job.scene = std::make_shared<const Scene>(scene);
+  job.geometry = std::make_shared<const Geometry>(*job.scene, 1);
+  const std::atomic<bool> stop{false};
+  return render(job, {spp, {}, {}}, stop, [](const Rendering&) {}).film;
+}
+
+// By rays alone: no light is sampled, and no pixel, ball or channel is chosen but by the path itself.
+Film found(const Scene& scene, std::uint32_t spp) {
+  const Geometry geometry(scene, 1);
+  const CameraRays camera = make_camera_rays(scene.camera, scene.film.width, scene.film.height);
+  PathOptions options;
+  options.chromatic = true;
+  options.sample_lights = false;
+  Film film(scene.film.width, scene.film.height);
+  PathTracer<Geometry> tracer(scene, geometry, options);
+  for (std::uint32_t i = 0; i < film.pixels.size(); ++i) {
+    const int x = static_cast<int>(i) % film.width;
+    const int y = static_cast<int>(i) / film.width;
+    for (std::uint32_t k = 0; k < spp; ++k) {
+      Random random = stream(77, i, k);
+      const double u = random.next();
+      const double v = random.next();
+      RadianceSink sink;
+      if (tracer.trace(camera.at((x + u) / film.width, (y + v) / film.height), random, sink))
+        film.pixels[i].add(sink.radiance);
+    }
+  }
+  return film;
+}
+
+void compare(Verdict& v, const Scene& scene, WalkCode code) {
+  const ZTest z = z_test(resolve(rendered(scene, code, 600)), resolve(found(scene, 1500)), {}, {1e-5});
+  v.require("p of single pixels", z.pixels_p, 1e-5, 1);
+  v.require("p of blocks", z.block_p, 1e-5, 1);
+  v.require("p of the picture", z.image_p, 1e-5, 1);
+}
+
+void picture_lit(Verdict& v, WalkCode code) { compare(v, lit_ball(), code); }
+void picture_fog(Verdict& v, WalkCode code) { compare(v, lamp_over_fog(), code); }
+void picture_outline(Verdict& v, WalkCode code) { compare(v, glowing_ball(), code); }
+
+// A white body in a white surround vanishes.
+void picture_furnace(Verdict& v, WalkCode code) {
+  const Film film = rendered(white_ball(), code, 600);
+  for (std::size_t c = 0; c < 3; ++c) {
+    double mean = 0;
+    double variance = 0;
+    for (const Pixel& pixel : film.pixels) {
+      mean += pixel.mean[c];
+      variance += pixel.variance_of_mean()[c];
+    }
+    const auto n = static_cast<double>(film.pixels.size());
+    v.score("mean", mean / n, 1, std::sqrt(variance) / n);
+  }
+}
+
+constexpr Oracle kOracles[]{{"picture_lit", picture_lit},
+                            {"picture_fog", picture_fog},
+                            {"picture_outline", picture_outline},
+                            {"picture_furnace", picture_furnace}};
+
+}  // namespace
+
+int main(int argc, char** argv) { return answer(kOracles, argc, argv); }
