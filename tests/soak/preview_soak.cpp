@@ -18,6 +18,7 @@ constexpr double kHeapPerHour = 32;       // MiB that the heap may gain by its s
 constexpr double kResidentPerHour = 96;   // likewise the process: fragments, and the sanitizer's quarantine
 constexpr double kLeftBehind = 8;         // MiB by which one previewer more may raise what is left of all
 constexpr double kSecondsThatTell = 600;  // a shorter run says nothing of a line
+constexpr int kScreensThatTell = 20;      // of fewer, chance may make all alike
 constexpr double kWarmUp = 0.3;           // of a previewer's time: undo keeps 500 steps, caches fill
 constexpr std::array<double, 3> kParts{0.1, 0.8, 0.1};  // of the whole: one previewer after another
 
@@ -106,6 +107,7 @@ TEST_CASE("under random use no frame is stale, nothing fails, and memory stays a
                       << " frames; heap left " << left[0] << ", " << left[1] << ", " << left[2] << " MiB");
   CHECK(left[2] - left[1] < kLeftBehind);
   CHECK(tally.reloads > 0);
+  if (tally.screens < kScreensThatTell) return;
   CHECK(tally.told_apart * 2 >= tally.screens - static_cast<int>(kParts.size()));
 }
 
