@@ -1,5 +1,6 @@
 // The verb merge.
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -42,6 +43,8 @@ struct Part {
   std::string digest;
   std::uint64_t spp = 0;
   SampleRanges samples;
+  std::optional<double> noise = {};  // over the object's pixels, as its render knew it
+  std::int64_t noise_pixels = 0;
 };
 
 std::uint64_t sample_count(const SampleRanges& ranges) {
@@ -66,6 +69,8 @@ Part read_part(const std::string& path) {
   Part part{path,    linear_picture(loaded, path),     loaded.placement, {},
             *digest, static_cast<std::uint64_t>(*spp), *samples};
   if (const std::string* scene = find_text(loaded.attributes, "meander/scene")) part.scene = *scene;
+  part.noise = find_number(loaded.attributes, kNoiseAttribute);
+  part.noise_pixels = find_integer(loaded.attributes, kNoisePixelsAttribute).value_or(0);
   if (part.spp > 1 && part.image.channels < 6)
     throw Error(place, "has no variance channels, which merge needs from two samples a pixel on");
   refuse_bad_values(part.image, path, "");
@@ -95,6 +100,7 @@ class Merge {
                                                 std::to_string(shared->last) + " of seed " +
                                                 std::to_string(shared->seed) + " with " + path +
                                                 "; render disjoint ranges (--first-sample) or other seeds");
+    add_noise(part, is_first);
     sum_.add(part.image, part.spp);
     added_.emplace_back(part.path, part.samples);
     first_.image.width = part.image.width;
@@ -114,6 +120,10 @@ class Merge {
                        {kDigestAttribute, first_.digest},
                        {"meander/version", version_text()}};
     add_samples(samples(), attributes);
+    if (noise_known_) {
+      const double noise = std::sqrt(squared_noise_) / static_cast<double>(sum_.samples());
+      meander::add_noise(noise, first_.noise_pixels, attributes);
+    }
     write_exr(output, sum_.resolve(), channels, attributes, first_.placement);
   }
 
@@ -129,7 +139,19 @@ class Merge {
                              first_.digest + ")");
   }
 
+  // The parts are independent: their variances add up, each by the square of its samples.
+  void add_noise(const Part& part, bool is_first) {
+    const bool known = part.noise && *part.noise >= 0 && part.noise_pixels > 0;
+    if (is_first) first_.noise_pixels = part.noise_pixels;
+    noise_known_ = (is_first || noise_known_) && known && part.noise_pixels == first_.noise_pixels;
+    if (!noise_known_) return;
+    const double own = *part.noise * static_cast<double>(part.spp);
+    squared_noise_ += own * own;
+  }
+
   Part first_;  // its pixels aside
+  bool noise_known_ = false;
+  double squared_noise_ = 0;  // times the square of the samples
   std::vector<std::pair<std::string, SampleRanges>> added_;
   FilmUnion sum_;
 };

@@ -75,11 +75,14 @@ ImageAttributes image_attributes(const Job& job, const Rendering& rendering) {
                      {"meander/version", version_text()}};
   add_samples({{job.seed, job.first_sample, job.first_sample + rendering.spp - 1}}, attributes);
   const NoiseEstimate& noise = rendering.noise;
-  if (noise.pixels > 0 && std::isfinite(noise.noise)) {
-    attributes.text.emplace_back(kNoiseAttribute, shortest(noise.noise));
-    attributes.integers.emplace_back(kNoisePixelsAttribute, static_cast<std::int64_t>(noise.pixels));
-  }
+  if (noise.pixels > 0 && std::isfinite(noise.noise))
+    add_noise(noise.noise, static_cast<std::int64_t>(noise.pixels), attributes);
   return attributes;
+}
+
+void add_noise(double noise, std::int64_t pixels, ImageAttributes& attributes) {
+  attributes.text.emplace_back(kNoiseAttribute, shortest(noise));
+  attributes.integers.emplace_back(kNoisePixelsAttribute, pixels);
 }
 
 void add_samples(const SampleRanges& samples, ImageAttributes& attributes) {

@@ -20,6 +20,9 @@ namespace meander {
 inline constexpr const char* kNoiseAttribute = "meander/relative_noise";
 inline constexpr const char* kNoisePixelsAttribute = "meander/noise_pixels";
 
+/// Adds both.
+void add_noise(double noise, std::int64_t pixels, ImageAttributes& attributes);
+
 /// The attribute that tells scenes apart (scene/scene_digest.h), as hexadecimal text.
 inline constexpr const char* kDigestAttribute = "meander/scene_digest";
 

@@ -4,6 +4,7 @@
 
 #include <hwy/cache_control.h>
 
+#include <limits>
 #include <utility>
 
 #include "walk/lanes.h"
@@ -156,21 +157,27 @@ class LaneWalks {
           world_.begin_crossing(rays[i].origin, rays[i].direction, rays[i].distance, hints[i]);
   }
 
+  // Of a lane's step. Where the hero channel does not collide, the kernel divides 0 by 0 once in 2^24 steps.
+  [[nodiscard]] Real distance_of(int lane) const noexcept {
+    const Real distance(lanes_.distance[lane]);
+    return distance >= 0 ? distance : std::numeric_limits<Real>::infinity();
+  }
+
   // The first part of a long step is often in balls, and all of some.
   [[nodiscard]] LaneRay ray_of(int lane) noexcept {
     const Vec3 p(position(lane));
     const Vec3 d(lanes_.direction[0][lane], lanes_.direction[1][lane], lanes_.direction[2][lane]);
-    const Real distance(lanes_.distance[lane]);
+    const Real distance = distance_of(lane);
     const EmptyBalls* balls = model_.region.balls;
     Real clear = 0;
     if (balls && distance * Real(balls->cells_per_unit) > 1)
-      clear = balls->clear_length(ball_of(lanes_, lane), position(lane), glm::vec3(d), lanes_.distance[lane]);
+      clear = balls->clear_length(ball_of(lanes_, lane), position(lane), glm::vec3(d), distance);
     clear_[lane] = clear;
     return {lane, p + clear * d, d, distance - clear};
   }
 
   [[nodiscard]] Crossing finish_ray(int lane, const Walker& walker) noexcept {
-    const Real distance(lanes_.distance[lane]);
+    const Real distance = distance_of(lane);
     if constexpr (kTogether) {
       if (clear_[lane] == distance)
         return {CrossingKind::none, distance, walker.position + distance * walker.direction, {}, {}};

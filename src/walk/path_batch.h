@@ -50,6 +50,7 @@ class PathBatch {
     for (;;) {
       const auto longest = std::ranges::max_element(waiting_, {}, &std::vector<Slot*>::size);
       if (longest == waiting_.end() || longest->empty()) {
+        if (tracer_.stop()) return false;
         if (!draw()) return !interrupted_;
         continue;
       }
@@ -89,7 +90,7 @@ class PathBatch {
     [[nodiscard]] bool start(int lane, Walker& walker, Random& random) {
       std::vector<Slot*>& waiting = batch.waiting_[object];
       while (waiting.empty())
-        if (batch.count_waiting_ >= kMostWaiting || !batch.draw()) return false;
+        if (stop() || batch.count_waiting_ >= kMostWaiting || !batch.draw()) return false;
       Slot* slot = slots[lane] = waiting.back();
       waiting.pop_back();
       --batch.count_waiting_;

@@ -51,6 +51,14 @@ said b_ac '48 spp of 2 images, samples 0:0-47' b.exr ac.exr
 for merged in abc cab ab_c b_ac; do
   "$meander" compare $merged.exr whole.exr --max-relative-rmse 2e-7 --hard-fail 2e-6 --quiet || fail "$merged is not the single run"
 done
+# The noise over the object's pixels, as the single run's file has it; three parts know their variance less well than one.
+"$meander" compare whole.exr abc.exr --json >object_noise.json 2>/dev/null
+python3 - <<'PY' || fail "the merge does not know its noise over the object's pixels"
+import json
+noise = json.load(open("object_noise.json"))
+assert noise["noise_a"]["over"] == "object" and noise["noise_a"] == noise["noise_b"], noise
+assert abs(noise["relative_noise_b"] / noise["relative_noise_a"] - 1) < 0.1, noise
+PY
 "$meander" compare a.exr whole.exr --max-relative-rmse 2e-7 --quiet 2>errors.txt && fail "a part passes for the whole"
 # The noise of all pixels but one: that of all would be what the single run's file says of its object.
 PYTHONPATH="$source/tests/cli" python3 -c '

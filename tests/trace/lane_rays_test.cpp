@@ -1,0 +1,56 @@
+// Rays that lanes begin together, in a mesh.
+#include <doctest/doctest.h>
+
+#include "trace/empty_balls.h"
+#include "walk/lane_walks.h"
+
+using namespace meander;
+
+namespace {
+
+// Walks from the middle of a cube along +x whose first random number is 0.
+struct Zeros {
+  int left;
+  int exits = 0;
+  int astray = 0;
+
+  [[nodiscard]] bool start(int, Walker& walker, Random& random) {
+    if (left == 0) return false;
+    --left;
+    walker = {};
+    walker.direction = {1, 0, 0};
+    walker.weight.hero = 0;
+    random = Random({0, 1, 0, 0});
+    REQUIRE(Random(random).next() == 0);
+    return true;
+  }
+  [[nodiscard]] bool end(int lane, const WalkResult& result, Walker& walker, Random& random) {
+    exits += result.end == WalkEnd::exited;
+    astray += glm::length(result.crossing.point - Vec3(1, 0, 0)) > Real(1e-5);
+    return start(lane, walker, random);
+  }
+  void collided(int, Walker&, Random&) {}
+  [[nodiscard]] bool stop() const { return false; }
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a walk whose hero channel does not collide flies straight out, also where its random number is 0") {
+  Mesh cube;
+  for (int i = 0; i < 8; ++i) cube.positions.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  cube.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  const Device device = make_device(1);
+  DVec3 center;
+  const MeshBody body(device.get(), cube, DMat3(1), center);
+  const EmptyBalls balls = make_empty_balls(body, 1);
+  const LaneModel model{
+      {Rgb(0, 1, 1), Rgb(Real(0.9)), 0}, {.kind = SafeRegion::Kind::balls, .balls = &balls}, false};
+  for (const InstructionSet set : instruction_sets()) {
+    Zeros client{1000};
+    REQUIRE(LaneWalks(set, body, model, client).run());
+    CHECK(client.exits == 1000);
+    CHECK(client.astray == 0);
+  }
+}
