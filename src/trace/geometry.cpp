@@ -175,7 +175,17 @@ double half_diagonal(const DMat3& map) noexcept {
 Geometry::Geometry(const Scene& scene, int threads, const Geometry* previous)
     : threads_(threads), device_(previous ? previous->device_ : nullptr) {
   for (const Object& object : scene.objects) bodies_.push_back(make_body(object, scene, previous));
-  for (Body& body : bodies_) body.holds_light = body.matched && holds_light(body, scene);
+  for (Body& body : bodies_) {
+    body.holds_light = body.matched && holds_light(body, scene);
+    body.region = std::visit(
+        [](const auto& shape) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, SharedMesh>)
+            return SafeRegion{.kind = SafeRegion::Kind::balls};
+          else
+            return convex_region(shape);
+        },
+        body.shape);
+  }
 }
 
 // Whether a light with an extent may lie, partly at least, inside a body: whether their bounding spheres
@@ -220,16 +230,16 @@ Geometry::Body Geometry::make_body(const Object& object, const Scene& scene, con
   const Rgb sigma_t = matched ? translucent->medium.sigma_t : Rgb(0);
   const DVec3& origin = object.transform.translate;
   if (std::holds_alternative<SphereShape>(object.shape))
-    return {SphereBody(map), origin, size_of(map), size_of(map), closed, matched, false, sigma_t};
+    return {SphereBody(map), origin, size_of(map), size_of(map), closed, matched, false, sigma_t, {}};
   if (std::holds_alternative<BoxShape>(object.shape))
-    return {BoxBody(map), origin, size_of(map), half_diagonal(map), closed, matched, false, sigma_t};
+    return {BoxBody(map), origin, size_of(map), half_diagonal(map), closed, matched, false, sigma_t, {}};
   if (std::holds_alternative<SlabShape>(object.shape))
-    return {SlabBody(map), origin, size_of(map), kInfinity, closed, matched, false, sigma_t};
+    return {SlabBody(map), origin, size_of(map), kInfinity, closed, matched, false, sigma_t, {}};
   SharedMesh mesh = make_mesh(std::get<std::shared_ptr<const Mesh>>(object.shape), map, previous);
   const Real size = largest(mesh->body.half_size());
   const DVec3 center = origin + mesh->center;
   const double radius = mesh->body.radius();
-  return {std::move(mesh), center, size, radius, closed, matched, false, sigma_t};
+  return {std::move(mesh), center, size, radius, closed, matched, false, sigma_t, {}};
 }
 
 bool Geometry::is_finished() const {
@@ -247,13 +257,10 @@ bool Geometry::finish(const std::atomic<bool>& stop) const {
 }
 
 SafeRegion Geometry::safe_region(std::size_t object) const noexcept {
-  const auto region_of = [](const auto& shape) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, SharedMesh>)
-      return SafeRegion{.kind = SafeRegion::Kind::balls, .balls = &shape->balls.get()};
-    else
-      return convex_region(shape);
-  };
-  return std::visit(region_of, bodies_[object].shape);
+  SafeRegion region = bodies_[object].region;
+  if (const auto* mesh = std::get_if<SharedMesh>(&bodies_[object].shape))
+    region.balls = &(*mesh)->balls.get();
+  return region;
 }
 
 Real Geometry::clearance(std::size_t object, const Vec3& point) const noexcept {

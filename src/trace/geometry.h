@@ -106,6 +106,7 @@ class Geometry {
     bool matched;  // light passes it unscattered
     bool holds_light;
     Rgb sigma_t;
+    SafeRegion region;  // but for a mesh's balls
   };
 
   template <class Shape>

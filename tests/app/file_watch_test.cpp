@@ -1,7 +1,7 @@
 #include "app/file_watch.h"
+#include "support/temporary_folder.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <fstream>
@@ -13,14 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("meander-watch-" + std::to_string(getpid()));
-  Folder() { fs::create_directory(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path); }
-};
-
 void write(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
 
 void settle() { std::this_thread::sleep_for(std::chrono::milliseconds(40)); }
@@ -28,11 +20,11 @@ void settle() { std::this_thread::sleep_for(std::chrono::milliseconds(40)); }
 }  // namespace
 
 TEST_CASE("a watched file is reported once when it changes, and not while it is gone") {
-  const Folder folder;
-  const std::string file = (folder.path / "a.toml").string();
+  const TemporaryFolder folder;
+  const std::string file = folder.at("a.toml");
   write(file, "one");
   FileWatch watch;
-  watch.watch({file, (folder.path / "missing").string()});
+  watch.watch({file, folder.at("missing")});
   settle();
   CHECK(watch.changed().empty());
   write(file, "longer");
@@ -57,8 +49,8 @@ TEST_CASE("a watched file is reported once when it changes, and not while it is 
 
 TEST_CASE(
     "a file that is still being written is reported when it is done, and none of its last words is missed") {
-  const Folder folder;
-  const std::string file = (folder.path / "a.toml").string();
+  const TemporaryFolder folder;
+  const std::string file = folder.at("a.toml");
   write(file, "0000");
   FileWatch watch;
   watch.watch({file});

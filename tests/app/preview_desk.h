@@ -2,7 +2,6 @@
 #pragma once
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -13,31 +12,14 @@
 #include "core/error.h"
 #include "core/timer.h"
 #include "gl/offscreen.h"
+#include "support/temporary_folder.h"
 
 namespace meander {
 
 namespace fs = std::filesystem;
+using Folder = TemporaryFolder;
 
 inline const std::string kKnot = std::string(MEANDER_SOURCE_DIR) + "/scenes/wax_knot.toml";
-
-// A folder that vanishes with the test.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("meander-desk-" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::string at(const std::string& name) const { return (path_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name) << text;
-  }
-
- private:
-  fs::path path_;
-};
 
 struct Desk {
   explicit Desk(const std::string& path) : state(small(path)), pictures(context.functions()) { render(); }

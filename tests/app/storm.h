@@ -2,7 +2,6 @@
 // decides.
 #pragma once
 
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "gl/framebuffer.h"
 #include "gl/offscreen.h"
 #include "io/image_file.h"
+#include "support/temporary_folder.h"
 
 namespace meander {
 
@@ -24,8 +24,7 @@ namespace fs = std::filesystem;
 // The default scene with a small film, and files to drop, in a folder of their own: the storm saves, too.
 class Folder {
  public:
-  Folder() : path_(fs::temp_directory_path() / ("meander-storm-" + std::to_string(getpid()))) {
-    fs::create_directory(path_);
+  Folder() {
     const fs::path scenes = fs::path(MEANDER_SOURCE_DIR) / "scenes";
     SceneDocument document = SceneDocument::open((scenes / "wax_knot.toml").string());
     document.apply("film.width=64");
@@ -44,13 +43,10 @@ class Folder {
     const std::array<std::string, 3> names{"R", "G", "B"};
     write_exr(at("light.exr"), light, names, {});
   }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::string at(const std::string& name) const { return (path_ / name).string(); }
+  [[nodiscard]] std::string at(const std::string& name) const { return files_.at(name); }
 
  private:
-  fs::path path_;
+  TemporaryFolder files_;
 };
 
 inline PreviewOptions storm_options() {

@@ -1,6 +1,5 @@
 // What a film looks like on a display: the drawn frame against the formula on the CPU, pixel by pixel.
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +16,11 @@
 #include "gl/framebuffer.h"
 #include "gl/offscreen.h"
 #include "math/color.h"
+#include "support/temporary_folder.h"
 
 namespace meander {
 namespace {
 
-namespace fs = std::filesystem;
 
 // Every pixel and channel its own value, from black over the knee of the curve to beyond white.
 Image ramp(int width, int height, int channels) {
@@ -76,17 +75,11 @@ std::string message_of(const std::function<void()>& action) {
 
 // A folder that goes away with the test, and MEANDER_SHADERS pointing at it as long as it lives.
 struct ShaderFolder {
-  fs::path path = fs::temp_directory_path() / ("meander-shaders-" + std::to_string(getpid()));
-  ShaderFolder() {
-    fs::create_directories(path);
-    setenv("MEANDER_SHADERS", path.c_str(), 1);
-  }
+  TemporaryFolder files;
+  ShaderFolder() { setenv("MEANDER_SHADERS", files.path().c_str(), 1); }
   ShaderFolder(const ShaderFolder&) = delete;
   ShaderFolder& operator=(const ShaderFolder&) = delete;
-  ~ShaderFolder() {
-    unsetenv("MEANDER_SHADERS");
-    fs::remove_all(path);
-  }
+  ~ShaderFolder() { unsetenv("MEANDER_SHADERS"); }
 };
 
 }  // namespace
@@ -246,20 +239,21 @@ TEST_CASE("a GL mistake is reported once, with what was being done") {
 
 TEST_CASE("a shader that does not compile is one line with its file name") {
   const ShaderFolder folder;
-  std::ofstream(folder.path / "film.frag") << "#version 330 core\nvoid main() {\n  nonsense;\n}\n";
+  std::ofstream(folder.files.path() / "film.frag") << "#version 330 core\nvoid main() {\n  nonsense;\n}\n";
   const Offscreen context(1, 1);
   const std::string message = message_of([&] { FilmView view(context.functions()); });
-  CHECK(message.find((folder.path / "film.frag").string() + " does not compile: ") == 0);
+  CHECK(message.find((folder.files.path() / "film.frag").string() + " does not compile: ") == 0);
   CHECK(message.find("nonsense") != std::string::npos);
   CHECK(message.find('\n') == std::string::npos);
 }
 
 TEST_CASE("shaders that do not fit together are one line with both file names") {
   const ShaderFolder folder;
-  std::ofstream(folder.path / "film.vert") << "#version 330 core\nout vec3 shared_value;\n"
-                                              "void main() { shared_value = gl_Position.xyz; }\n";
-  std::ofstream(folder.path / "film.frag") << "#version 330 core\nin vec2 shared_value;\nout vec4 color;\n"
-                                              "void main() { color = shared_value.xyxy; }\n";
+  std::ofstream(folder.files.path() / "film.vert") << "#version 330 core\nout vec3 shared_value;\n"
+                                                      "void main() { shared_value = gl_Position.xyz; }\n";
+  std::ofstream(folder.files.path() / "film.frag")
+      << "#version 330 core\nin vec2 shared_value;\nout vec4 color;\n"
+         "void main() { color = shared_value.xyxy; }\n";
   const Offscreen context(1, 1);
   const std::string message = message_of([&] { FilmView view(context.functions()); });
   CHECK(message.find("film.vert") != std::string::npos);
@@ -270,11 +264,11 @@ TEST_CASE("shaders that do not fit together are one line with both file names") 
 TEST_CASE("MEANDER_SHADERS comes first, the source tree last, and a missing shader names every place") {
   const ShaderFolder folder;
   CHECK(shader_source("film.frag").name == MEANDER_SOURCE_DIR "/shaders/film.frag");
-  std::ofstream(folder.path / "film.frag") << "mine";
+  std::ofstream(folder.files.path() / "film.frag") << "mine";
   CHECK(shader_source("film.frag").text == "mine");
   const std::string message = message_of([] { (void)shader_source("none.frag"); });
   CHECK(message.find("none.frag") != std::string::npos);
-  CHECK(message.find(folder.path.string()) != std::string::npos);
+  CHECK(message.find(folder.files.path().string()) != std::string::npos);
   CHECK(message.find("share/meander/shaders") != std::string::npos);
   CHECK(message.find(MEANDER_SOURCE_DIR "/shaders") != std::string::npos);
 }

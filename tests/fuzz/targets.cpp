@@ -1,7 +1,6 @@
 #include "fuzz/targets.h"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +20,6 @@
 namespace meander {
 namespace {
 
-namespace fs = std::filesystem;
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::logic_error(what);
@@ -145,24 +143,12 @@ std::optional<FuzzTarget> fuzz_target_of(std::string_view name) {
 }
 
 FuzzFolder::FuzzFolder() {
-  path_ = (fs::temp_directory_path() / "meander-fuzz-XXXXXX").string();
-  if (mkdtemp(path_.data()) == nullptr) throw std::runtime_error("cannot make a folder like " + path_);
   (void)write("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   Image light(4, 2, 3);
   std::fill(light.values.begin(), light.values.end(), 0.5f);
   const std::array<std::string, 3> names{"R", "G", "B"};
   write_exr(at("light.exr"), light, names, {});
   first_scene_ = SceneDocument::from_text("", at("input.toml"));
-}
-
-FuzzFolder::~FuzzFolder() {
-  std::error_code failed;
-  fs::remove_all(path_, failed);
-}
-
-std::string FuzzFolder::write(std::string_view name, std::string_view bytes) const {
-  std::ofstream(at(name), std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  return at(name);
 }
 
 SceneDocument FuzzFolder::read_scene(std::string_view text) const {

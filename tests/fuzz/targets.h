@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "io/scene_document.h"
+#include "support/temporary_folder.h"
 
 namespace meander {
 
@@ -22,16 +23,15 @@ inline constexpr std::array<std::string_view, 6> kFuzzTargetNames{"scene", "ply"
 class FuzzFolder {
  public:
   FuzzFolder();
-  ~FuzzFolder();
-  FuzzFolder(const FuzzFolder&) = delete;
-  FuzzFolder& operator=(const FuzzFolder&) = delete;
-  [[nodiscard]] std::string at(std::string_view name) const { return path_ + '/' + std::string(name); }
-  [[nodiscard]] std::string write(std::string_view name, std::string_view bytes) const;
+  [[nodiscard]] std::string at(std::string_view name) const { return files_.at(name); }
+  [[nodiscard]] std::string write(std::string_view name, std::string_view bytes) const {
+    return files_.write(name, bytes);
+  }
   /// The scene file of that text, read with what earlier ones have read already. Errors: Error.
   [[nodiscard]] SceneDocument read_scene(std::string_view text) const;
 
  private:
-  std::string path_;
+  TemporaryFolder files_;
   std::optional<SceneDocument> first_scene_;
 };
 

@@ -2,7 +2,6 @@
 #include "io/checkpoint_file.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
@@ -11,25 +10,11 @@
 #include <limits>
 
 #include "core/error.h"
+#include "support/temporary_folder.h"
 
 namespace meander {
 namespace {
 
-namespace fs = std::filesystem;
-
-// A folder of the test's own, gone with it.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "meander-checkpoint-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path); }
-  [[nodiscard]] std::string file(const std::string& name) const { return (path / name).string(); }
-};
 
 std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -82,12 +67,12 @@ std::string write_refusal(const std::string& path) {
 }  // namespace
 
 TEST_CASE("a checkpoint comes back bit for bit, and the same one is the same file") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Film film = awkward_film();
-  write_checkpoint(folder.file("a"), kFields, film);
-  write_checkpoint(folder.file("b"), kFields, film);
-  CHECK(bytes_of(folder.file("a")) == bytes_of(folder.file("b")));
-  const Checkpoint checkpoint = read_checkpoint(folder.file("a"));
+  write_checkpoint(folder.at("a"), kFields, film);
+  write_checkpoint(folder.at("b"), kFields, film);
+  CHECK(bytes_of(folder.at("a")) == bytes_of(folder.at("b")));
+  const Checkpoint checkpoint = read_checkpoint(folder.at("a"));
   CHECK(checkpoint.fields == kFields);
   REQUIRE(checkpoint.film.width == 3);
   REQUIRE(checkpoint.film.height == 2);
@@ -98,58 +83,58 @@ TEST_CASE("a checkpoint comes back bit for bit, and the same one is the same fil
 }
 
 TEST_CASE("a checkpoint cut short anywhere is refused, and so is one that goes on") {
-  const Folder folder;
-  write_checkpoint(folder.file("a"), kFields, awkward_film());
-  const std::string whole = bytes_of(folder.file("a"));
+  const TemporaryFolder folder;
+  write_checkpoint(folder.at("a"), kFields, awkward_film());
+  const std::string whole = bytes_of(folder.at("a"));
   for (std::size_t length = 0; length < whole.size(); ++length) {
     CAPTURE(length);
-    put(folder.file("cut"), whole.substr(0, length));
-    REQUIRE_FALSE(refusal(folder.file("cut")).empty());
+    put(folder.at("cut"), whole.substr(0, length));
+    REQUIRE_FALSE(refusal(folder.at("cut")).empty());
   }
-  put(folder.file("cut"), whole + '\0');
-  CHECK(refusal(folder.file("cut")).starts_with("is no whole checkpoint: it has "));
+  put(folder.at("cut"), whole + '\0');
+  CHECK(refusal(folder.at("cut")).starts_with("is no whole checkpoint: it has "));
 }
 
 TEST_CASE("a checkpoint with any byte changed is refused") {
-  const Folder folder;
-  write_checkpoint(folder.file("a"), kFields, awkward_film());
-  const std::string whole = bytes_of(folder.file("a"));
+  const TemporaryFolder folder;
+  write_checkpoint(folder.at("a"), kFields, awkward_film());
+  const std::string whole = bytes_of(folder.at("a"));
   for (std::size_t place = 0; place < whole.size(); ++place)
     for (const char change : {char(1), char(-128), char(-1)}) {
       std::string bytes = whole;
       bytes[place] = static_cast<char>(bytes[place] ^ change);
-      put(folder.file("changed"), bytes);
+      put(folder.at("changed"), bytes);
       CAPTURE(place);
-      REQUIRE_FALSE(refusal(folder.file("changed")).empty());
+      REQUIRE_FALSE(refusal(folder.at("changed")).empty());
     }
 }
 
 TEST_CASE("what is no checkpoint says so") {
-  const Folder folder;
-  CHECK(refusal(folder.file("none")) == "there is no such checkpoint");
-  CHECK(refusal(folder.path.string()) == "is no checkpoint: it is not a regular file");
-  put(folder.file("text"), "a text\nof lines\n\n");
-  CHECK(refusal(folder.file("text")) == "is no checkpoint of meander");
-  put(folder.file("long"), std::string(1 << 20, 'a'));
-  CHECK(refusal(folder.file("long")) == "is no checkpoint of meander");
-  put(folder.file("new"), "meander checkpoint 2\nfilm 1 1\n\n");
-  CHECK(refusal(folder.file("new")).starts_with("is a checkpoint of format 2, which a newer meander wrote"));
-  put(folder.file("huge"), "meander checkpoint 1\nfilm 2147483647 2147483647\n\n");
-  CHECK(refusal(folder.file("huge")).starts_with("is no whole checkpoint: it has "));
-  put(folder.file("filmless"), "meander checkpoint 1\nspp 3\n\n");
-  CHECK(refusal(folder.file("filmless")) == "is damaged: it names no film");
+  const TemporaryFolder folder;
+  CHECK(refusal(folder.at("none")) == "there is no such checkpoint");
+  CHECK(refusal(folder.path().string()) == "is no checkpoint: it is not a regular file");
+  put(folder.at("text"), "a text\nof lines\n\n");
+  CHECK(refusal(folder.at("text")) == "is no checkpoint of meander");
+  put(folder.at("long"), std::string(1 << 20, 'a'));
+  CHECK(refusal(folder.at("long")) == "is no checkpoint of meander");
+  put(folder.at("new"), "meander checkpoint 2\nfilm 1 1\n\n");
+  CHECK(refusal(folder.at("new")).starts_with("is a checkpoint of format 2, which a newer meander wrote"));
+  put(folder.at("huge"), "meander checkpoint 1\nfilm 2147483647 2147483647\n\n");
+  CHECK(refusal(folder.at("huge")).starts_with("is no whole checkpoint: it has "));
+  put(folder.at("filmless"), "meander checkpoint 1\nspp 3\n\n");
+  CHECK(refusal(folder.at("filmless")) == "is damaged: it names no film");
 }
 
 TEST_CASE("a checkpoint takes the place of another, and of no other file") {
-  const Folder folder;
-  CHECK(write_refusal(folder.file("a")).empty());
-  write_checkpoint(folder.file("a"), kFields, awkward_film());
-  CHECK(write_refusal(folder.file("a")).empty());
-  put(folder.file("thesis"), "years of work");
-  CHECK(write_refusal(folder.file("thesis")) ==
-        "cannot write " + folder.file("thesis") +
+  const TemporaryFolder folder;
+  CHECK(write_refusal(folder.at("a")).empty());
+  write_checkpoint(folder.at("a"), kFields, awkward_film());
+  CHECK(write_refusal(folder.at("a")).empty());
+  put(folder.at("thesis"), "years of work");
+  CHECK(write_refusal(folder.at("thesis")) ==
+        "cannot write " + folder.at("thesis") +
             ": it exists and is no checkpoint of meander; use another name");
-  CHECK(bytes_of(folder.file("thesis")) == "years of work");
+  CHECK(bytes_of(folder.at("thesis")) == "years of work");
 }
 
 }  // namespace meander

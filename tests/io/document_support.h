@@ -2,7 +2,6 @@
 #pragma once
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,34 +9,17 @@
 #include "core/error.h"
 #include "io/scene_document.h"
 #include "io/scene_dump.h"
+#include "support/temporary_folder.h"
 
 namespace meander {
 
 namespace fs = std::filesystem;
+using Folder = TemporaryFolder;
 
 inline const std::string kScenes = std::string(MEANDER_SOURCE_DIR) + "/scenes/";
 inline const std::string kKnot = kScenes + "wax_knot.toml";
 inline const std::string kSoap = kScenes + "soap.toml";
 inline const std::string kSoapMesh = kScenes + "soap.ply";
-
-// A folder that vanishes with the test.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("document-" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::string at(const std::string& name) const { return (path_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name) << text;
-  }
-
- private:
-  fs::path path_;
-};
 
 // A closed tetrahedron of this size whose lowest corners lie at y = 0.
 inline std::string tetrahedron(double size) {

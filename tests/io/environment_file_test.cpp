@@ -2,7 +2,6 @@
 #include "io/environment_file.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include "core/error.h"
 #include "io/image_file.h"
 #include "io/scene_file.h"
+#include "support/temporary_folder.h"
 
 using namespace meander;
 
@@ -21,21 +21,13 @@ namespace fs = std::filesystem;
 
 // A folder with pictures, gone with the test.
 struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "meander-environment-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-    fs::create_directory(path / "sky");
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path); }
+  TemporaryFolder files;
+  Folder() { fs::create_directory(files.path() / "sky"); }
 
-  [[nodiscard]] std::string file(const std::string& name) const { return (path / name).string(); }
+  [[nodiscard]] std::string file(const std::string& name) const { return files.at(name); }
 
   [[nodiscard]] Environment load(const std::string& keys, const std::vector<std::string>& edits = {}) const {
-    std::ofstream(path / "scene.toml") << "[environment]\n" << keys;
+    files.write("scene.toml", "[environment]\n" + keys);
     return load_scene(file("scene.toml"), edits).scene.environment;
   }
 
@@ -47,7 +39,8 @@ struct Folder {
       CHECK(error.exit_code() == 2);
       const std::string message = error.what();
       CHECK(message.find('\n') == std::string::npos);
-      return message.starts_with(path.string()) ? message.substr(path.string().size() + 1) : message;
+      return message.starts_with(files.path().string()) ? message.substr(files.path().string().size() + 1)
+                                                        : message;
     }
     return "no error";
   }

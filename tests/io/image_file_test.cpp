@@ -19,29 +19,16 @@
 #include <limits>
 
 #include "core/error.h"
+#include "support/temporary_folder.h"
 
 namespace meander {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A folder of the test's own, gone with it.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "meander-image-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path); }
-
-  [[nodiscard]] std::string file(const std::string& name) const { return (path / name).string(); }
-  [[nodiscard]] long entries() const {
-    return std::distance(fs::directory_iterator(path), fs::directory_iterator());
-  }
-};
+long entries(const TemporaryFolder& folder) {
+  return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
+}
 
 std::string error_of(Fault fault, const std::function<void()>& action) {
   try {
@@ -135,14 +122,14 @@ TEST_CASE("numbers that travel as text: seeds beyond 2^63, and fractions") {
 }
 
 TEST_CASE("an EXR comes back bit for bit, with its channel names, attributes and placement") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1, 1}, std::pair{3, 2}, std::pair{131, 77}}) {
     const Image image = awkward(width, height, 6);
     const ImageAttributes attributes = {
         {{"meander/scene", "scenes/jäde.toml"}, {"meander/version", "0.1.0"}},
         {{"meander/spp", 64}, {"meander/seed", 1234567890123}, {"meander/first_sample", -7}}};
-    write_exr(folder.file("a.exr"), image, kFilmChannels, attributes, {5, 6, 400, 300});
-    const LoadedImage loaded = read_image(folder.file("a.exr"));
+    write_exr(folder.at("a.exr"), image, kFilmChannels, attributes, {5, 6, 400, 300});
+    const LoadedImage loaded = read_image(folder.at("a.exr"));
     CHECK(same_bits(loaded.image, image));
     CHECK(loaded.channels == kFilmChannels);
     CHECK_FALSE(loaded.encoded);
@@ -163,28 +150,28 @@ TEST_CASE("an EXR comes back bit for bit, with its channel names, attributes and
     CHECK(find_unsigned(loaded.attributes, "meander/spp") == 64);
     CHECK_FALSE(find_unsigned(loaded.attributes, "meander/first_sample").has_value());
   }
-  CHECK(folder.entries() == 1);
+  CHECK(entries(folder) == 1);
 }
 
 TEST_CASE("an EXR without a placement fills its own picture, and equal images are equal files, undated") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Image image = awkward(20, 10, 3);
-  write_exr(folder.file("a.exr"), image, kRgb, {});
-  write_exr(folder.file("b.exr"), image, kRgb, {});
-  const LoadedImage loaded = read_image(folder.file("a.exr"));
+  write_exr(folder.at("a.exr"), image, kRgb, {});
+  write_exr(folder.at("b.exr"), image, kRgb, {});
+  const LoadedImage loaded = read_image(folder.at("a.exr"));
   CHECK(loaded.placement.x == 0);
   CHECK(loaded.placement.full_width == 20);
   CHECK(loaded.placement.full_height == 10);
-  CHECK(bytes_of(folder.file("a.exr")) == bytes_of(folder.file("b.exr")));
+  CHECK(bytes_of(folder.at("a.exr")) == bytes_of(folder.at("b.exr")));
   CHECK(find_text(loaded.attributes, "DateTime").value_or("").empty());
 }
 
 TEST_CASE("a PNG comes back level for level, with its attributes as text") {
-  const Folder folder;
+  const TemporaryFolder folder;
   Image8 frame(16, 17);
   for (std::size_t i = 0; i < frame.rgb.size(); ++i) frame.rgb[i] = static_cast<std::uint8_t>(i * 7);
-  write_png(folder.file("a.png"), frame, {{{"meander/version", "0.1.0"}}, {{"meander/spp", 64}}});
-  const LoadedImage loaded = read_image(folder.file("a.png"));
+  write_png(folder.at("a.png"), frame, {{{"meander/version", "0.1.0"}}, {{"meander/spp", 64}}});
+  const LoadedImage loaded = read_image(folder.at("a.png"));
   REQUIRE(loaded.image.width == 16);
   REQUIRE(loaded.image.height == 17);
   REQUIRE(loaded.image.channels == 3);
@@ -198,25 +185,25 @@ TEST_CASE("a PNG comes back level for level, with its attributes as text") {
 }
 
 TEST_CASE("a PFM is read with its last stored row at the top, in either byte order") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const float stored[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   std::string little(reinterpret_cast<const char*>(stored), sizeof(stored));
   std::string big = little;
   for (std::size_t i = 0; i < big.size(); i += 4) std::reverse(big.begin() + i, big.begin() + i + 4);
-  put(folder.file("little.pfm"), "PF\n2 2\n-1.0\n" + little);
-  put(folder.file("big.PFM"), "PF\n2 2\n1.0\n" + big);
+  put(folder.at("little.pfm"), "PF\n2 2\n-1.0\n" + little);
+  put(folder.at("big.PFM"), "PF\n2 2\n1.0\n" + big);
   const std::vector<float> expected = {7, 8, 9, 10, 11, 12, 1, 2, 3, 4, 5, 6};
-  CHECK(read_image(folder.file("little.pfm")).image.values == expected);
-  CHECK(read_image(folder.file("big.PFM")).image.values == expected);
-  put(folder.file("short.pfm"), "PF\n2 2\n-1.0\n" + little.substr(0, 30));
-  CHECK(contains(input_error([&] { (void)read_image(folder.file("short.pfm")); }), "cannot read "));
+  CHECK(read_image(folder.at("little.pfm")).image.values == expected);
+  CHECK(read_image(folder.at("big.PFM")).image.values == expected);
+  put(folder.at("short.pfm"), "PF\n2 2\n-1.0\n" + little.substr(0, 30));
+  CHECK(contains(input_error([&] { (void)read_image(folder.at("short.pfm")); }), "cannot read "));
 }
 
 TEST_CASE("a Radiance HDR pixel is mantissa times two to the exponent") {
-  const Folder folder;
-  put(folder.file("a.hdr"),
+  const TemporaryFolder folder;
+  put(folder.at("a.hdr"),
       "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x40\x20\x82"));
-  const LoadedImage loaded = read_image(folder.file("a.hdr"));
+  const LoadedImage loaded = read_image(folder.at("a.hdr"));
   REQUIRE(loaded.image.values.size() == 3);
   CHECK_FALSE(loaded.encoded);
   // Within the half step that readers may add to a mantissa.
@@ -226,125 +213,125 @@ TEST_CASE("a Radiance HDR pixel is mantissa times two to the exponent") {
 }
 
 TEST_CASE("a file that cannot be written leaves neither itself nor a partial, and keeps what was there") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Image image = awkward(200, 100, 3);
   const Image8 frame(4, 4);
-  CHECK(contains(input_error([&] { write_exr(folder.file("none/a.exr"), image, kRgb, {}); }),
-                 "cannot write " + folder.file("none/a.exr") + ": No such file"));
-  put(folder.file("a.exr"), "before");
+  CHECK(contains(input_error([&] { write_exr(folder.at("none/a.exr"), image, kRgb, {}); }),
+                 "cannot write " + folder.at("none/a.exr") + ": No such file"));
+  put(folder.at("a.exr"), "before");
   {
     const FullDisk full(100);
     for (const std::string name : {"a.exr", "b.exr"})
-      CHECK(contains(error_of(Fault::runtime, [&] { write_exr(folder.file(name), image, kRgb, {}); }),
-                     "cannot write " + folder.file(name) + ": File too large"));
+      CHECK(contains(error_of(Fault::runtime, [&] { write_exr(folder.at(name), image, kRgb, {}); }),
+                     "cannot write " + folder.at(name) + ": File too large"));
   }
-  CHECK(bytes_of(folder.file("a.exr")) == "before");
-  CHECK(folder.entries() == 1);
-  fs::create_directory(folder.path / "taken.png");
-  CHECK(contains(input_error([&] { write_png(folder.file("taken.png"), frame, {}); }), "directory"));
-  CHECK(folder.entries() == 2);
-  write_exr(folder.file("a.exr"), image, kRgb, {});
-  CHECK(same_bits(read_image(folder.file("a.exr")).image, image));
+  CHECK(bytes_of(folder.at("a.exr")) == "before");
+  CHECK(entries(folder) == 1);
+  fs::create_directory(folder.path() / "taken.png");
+  CHECK(contains(input_error([&] { write_png(folder.at("taken.png"), frame, {}); }), "directory"));
+  CHECK(entries(folder) == 2);
+  write_exr(folder.at("a.exr"), image, kRgb, {});
+  CHECK(same_bits(read_image(folder.at("a.exr")).image, image));
 }
 
 TEST_CASE("an output is refused before the work by its type, folder or kind, and nothing is left behind") {
-  const Folder folder;
+  const TemporaryFolder folder;
   constexpr std::string_view kTypes[] = {".exr", ".png"};
-  CHECK(input_error([&] { check_writable(folder.file("a.exr"), kTypes); }).empty());
-  CHECK(input_error([&] { check_writable(folder.file("a.PNG"), kTypes); }).empty());
-  CHECK(folder.entries() == 0);
-  CHECK(input_error([&] { check_writable(folder.file("a.jpg"), kTypes); }) ==
-        "cannot write " + folder.file("a.jpg") + ": unknown file type .jpg; use .exr, .png");
-  CHECK(contains(input_error([&] { check_writable(folder.file("a"), kTypes); }), "it has no file type; use"));
+  CHECK(input_error([&] { check_writable(folder.at("a.exr"), kTypes); }).empty());
+  CHECK(input_error([&] { check_writable(folder.at("a.PNG"), kTypes); }).empty());
+  CHECK(entries(folder) == 0);
+  CHECK(input_error([&] { check_writable(folder.at("a.jpg"), kTypes); }) ==
+        "cannot write " + folder.at("a.jpg") + ": unknown file type .jpg; use .exr, .png");
+  CHECK(contains(input_error([&] { check_writable(folder.at("a"), kTypes); }), "it has no file type; use"));
   CHECK(contains(input_error([&] { check_writable("", kTypes); }), "without a name"));
-  CHECK(contains(input_error([&] { check_writable(folder.file("none/a.exr"), kTypes); }),
-                 "there is no folder " + folder.file("none")));
-  put(folder.file("file"), "x");
-  CHECK(contains(input_error([&] { check_writable(folder.file("file/a.exr"), kTypes); }), "is not a folder"));
-  fs::create_directory(folder.path / "dir.exr");
-  CHECK(contains(input_error([&] { check_writable(folder.file("dir.exr"), kTypes); }), "it is a directory"));
-  put(folder.file("kept.exr"), "kept");
-  CHECK(input_error([&] { check_writable(folder.file("kept.exr"), kTypes); }).empty());
-  CHECK(bytes_of(folder.file("kept.exr")) == "kept");
-  CHECK(folder.entries() == 3);
+  CHECK(contains(input_error([&] { check_writable(folder.at("none/a.exr"), kTypes); }),
+                 "there is no folder " + folder.at("none")));
+  put(folder.at("file"), "x");
+  CHECK(contains(input_error([&] { check_writable(folder.at("file/a.exr"), kTypes); }), "is not a folder"));
+  fs::create_directory(folder.path() / "dir.exr");
+  CHECK(contains(input_error([&] { check_writable(folder.at("dir.exr"), kTypes); }), "it is a directory"));
+  put(folder.at("kept.exr"), "kept");
+  CHECK(input_error([&] { check_writable(folder.at("kept.exr"), kTypes); }).empty());
+  CHECK(bytes_of(folder.at("kept.exr")) == "kept");
+  CHECK(entries(folder) == 3);
   if (geteuid() != 0) {  // root may write anywhere
-    fs::permissions(folder.path / "dir.exr", fs::perms::owner_read | fs::perms::owner_exec);
-    CHECK(contains(input_error([&] { check_writable(folder.file("dir.exr/a.exr"), kTypes); }), "Permission"));
-    fs::permissions(folder.path / "dir.exr", fs::perms::owner_all);
+    fs::permissions(folder.path() / "dir.exr", fs::perms::owner_read | fs::perms::owner_exec);
+    CHECK(contains(input_error([&] { check_writable(folder.at("dir.exr/a.exr"), kTypes); }), "Permission"));
+    fs::permissions(folder.path() / "dir.exr", fs::perms::owner_all);
   }
 }
 
 TEST_CASE("what a killed process left of an output goes before the next, what a living one writes stays") {
-  const Folder folder;
+  const TemporaryFolder folder;
   constexpr std::string_view kExr[] = {".exr"};
-  put(folder.file(".a.partial-1.exr"), "left by a killed process");
-  put(folder.file(".a.partial-2.exr"), "in the making");
-  put(folder.file(".b.partial-1.exr"), "of another output");
-  put(folder.file(".a.partial-1.json"), "of another output");
-  fs::create_directory(folder.path / ".a.partial-3.exr");
-  const int making = open(folder.file(".a.partial-2.exr").c_str(), O_RDONLY | O_CLOEXEC);
+  put(folder.at(".a.partial-1.exr"), "left by a killed process");
+  put(folder.at(".a.partial-2.exr"), "in the making");
+  put(folder.at(".b.partial-1.exr"), "of another output");
+  put(folder.at(".a.partial-1.json"), "of another output");
+  fs::create_directory(folder.path() / ".a.partial-3.exr");
+  const int making = open(folder.at(".a.partial-2.exr").c_str(), O_RDONLY | O_CLOEXEC);
   REQUIRE(flock(making, LOCK_EX) == 0);
-  check_writable(folder.file("a.exr"), kExr);
-  CHECK_FALSE(fs::exists(folder.path / ".a.partial-1.exr"));
-  CHECK(bytes_of(folder.file(".a.partial-2.exr")) == "in the making");
-  CHECK(folder.entries() == 4);
+  check_writable(folder.at("a.exr"), kExr);
+  CHECK_FALSE(fs::exists(folder.path() / ".a.partial-1.exr"));
+  CHECK(bytes_of(folder.at(".a.partial-2.exr")) == "in the making");
+  CHECK(entries(folder) == 4);
   close(making);
-  check_writable(folder.file("a.exr"), kExr);
-  CHECK(folder.entries() == 3);
+  check_writable(folder.at("a.exr"), kExr);
+  CHECK(entries(folder) == 3);
 }
 
 TEST_CASE("a truncated image is an error wherever it ends") {
-  const Folder folder;
-  write_exr(folder.file("a.exr"), awkward(100, 100, 3), kRgb, {});
+  const TemporaryFolder folder;
+  write_exr(folder.at("a.exr"), awkward(100, 100, 3), kRgb, {});
   Image8 frame(100, 100);
   for (std::size_t i = 0; i < frame.rgb.size(); ++i) frame.rgb[i] = static_cast<std::uint8_t>(i * i);
-  write_png(folder.file("a.png"), frame, {});
+  write_png(folder.at("a.png"), frame, {});
   for (const std::string extension : {".exr", ".png"}) {
-    const std::string whole = bytes_of(folder.file("a" + extension));
+    const std::string whole = bytes_of(folder.at("a" + extension));
     for (const double part : {0.0, 0.0001, 0.001, 0.005, 0.1, 0.5, 0.95}) {
       CAPTURE(extension);
       CAPTURE(part);
       const auto kept = static_cast<std::size_t>(part * static_cast<double>(whole.size()));
-      put(folder.file("cut" + extension), whole.substr(0, kept));
-      CHECK(contains(input_error([&] { (void)read_image(folder.file("cut" + extension)); }), "cannot read "));
+      put(folder.at("cut" + extension), whole.substr(0, kept));
+      CHECK(contains(input_error([&] { (void)read_image(folder.at("cut" + extension)); }), "cannot read "));
     }
   }
 }
 
 TEST_CASE("what is not an image, or is no file at all, is an error") {
-  const Folder folder;
-  CHECK(input_error([&] { (void)read_image(folder.file("a.exr")); }) ==
-        "cannot read " + folder.file("a.exr") + ": No such file or directory");
-  fs::create_directory(folder.path / "dir.exr");
-  CHECK(contains(input_error([&] { (void)read_image(folder.file("dir.exr")); }), "it is a directory"));
-  CHECK(contains(input_error([&] { (void)read_image(folder.file("a.jpg")); }), "unknown file type .jpg"));
-  REQUIRE(mkfifo(folder.file("pipe.png").c_str(), 0600) == 0);
-  CHECK(contains(input_error([&] { (void)read_image(folder.file("pipe.png")); }), "not a regular file"));
+  const TemporaryFolder folder;
+  CHECK(input_error([&] { (void)read_image(folder.at("a.exr")); }) ==
+        "cannot read " + folder.at("a.exr") + ": No such file or directory");
+  fs::create_directory(folder.path() / "dir.exr");
+  CHECK(contains(input_error([&] { (void)read_image(folder.at("dir.exr")); }), "it is a directory"));
+  CHECK(contains(input_error([&] { (void)read_image(folder.at("a.jpg")); }), "unknown file type .jpg"));
+  REQUIRE(mkfifo(folder.at("pipe.png").c_str(), 0600) == 0);
+  CHECK(contains(input_error([&] { (void)read_image(folder.at("pipe.png")); }), "not a regular file"));
   for (const std::string extension : {".exr", ".hdr", ".pfm", ".png", ".tif"}) {
     CAPTURE(extension);
-    put(folder.file("text" + extension), "this is not an image\n");
-    CHECK(contains(input_error([&] { (void)read_image(folder.file("text" + extension)); }), "cannot read "));
+    put(folder.at("text" + extension), "this is not an image\n");
+    CHECK(contains(input_error([&] { (void)read_image(folder.at("text" + extension)); }), "cannot read "));
   }
 }
 
 TEST_CASE("a small file that claims to be huge is refused without taking the memory") {
-  const Folder folder;
-  put(folder.file("most.pfm"), "PF\n40000 40000\n-1.0\n");
-  CHECK(contains(input_error([&] { (void)read_image(folder.file("most.pfm")); }), "cannot read "));
-  put(folder.file("many.pfm"), "PF\n30000 30000\n-1.0\n");
-  CHECK(contains(input_error([&] { (void)read_image(folder.file("many.pfm")); }), "cannot read "));
-  put(folder.file("many.hdr"), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 30000 +X 30000\n");
-  CHECK(contains(input_error([&] { (void)read_image(folder.file("many.hdr")); }), "cannot read "));
+  const TemporaryFolder folder;
+  put(folder.at("most.pfm"), "PF\n40000 40000\n-1.0\n");
+  CHECK(contains(input_error([&] { (void)read_image(folder.at("most.pfm")); }), "cannot read "));
+  put(folder.at("many.pfm"), "PF\n30000 30000\n-1.0\n");
+  CHECK(contains(input_error([&] { (void)read_image(folder.at("many.pfm")); }), "cannot read "));
+  put(folder.at("many.hdr"), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 30000 +X 30000\n");
+  CHECK(contains(input_error([&] { (void)read_image(folder.at("many.hdr")); }), "cannot read "));
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   CHECK(usage.ru_maxrss < 2'000'000);  // KiB; the picture alone would take ten million
 }
 
 TEST_CASE("reading and writing start no threads") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const int before = threads_of_process();
-  write_exr(folder.file("a.exr"), awkward(960, 540, 6), kFilmChannels, {});
-  (void)read_image(folder.file("a.exr"));
+  write_exr(folder.at("a.exr"), awkward(960, 540, 6), kFilmChannels, {});
+  (void)read_image(folder.at("a.exr"));
   CHECK(threads_of_process() == before);
 }
 

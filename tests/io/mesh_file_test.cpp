@@ -18,32 +18,12 @@
 #include "core/error.h"
 #include "core/timer.h"
 #include "io/mesh_samples.h"
+#include "support/temporary_folder.h"
 
 using namespace meander;
 namespace fs = std::filesystem;
 
 namespace {
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "meander_mesh_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path_); }
-
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return (path_ / name).string();
-  }
-  std::string path(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 std::string error_of(const std::string& path) {
   try {
@@ -88,7 +68,7 @@ std::size_t count_descriptors() {
 }  // namespace
 
 TEST_CASE("a box loads from every format, welded and closed") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const Sample& sample : samples()) {
     CAPTURE(sample.name);
     if (sample.bytes == glb()) continue;
@@ -106,7 +86,7 @@ TEST_CASE("a box loads from every format, welded and closed") {
 }
 
 TEST_CASE("a glb file's nodes are applied, mirrors included") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const MeshFile file = load_mesh(folder.write("nodes.glb", glb()), false);
   CHECK(file.mesh.positions.size() == 24);
   CHECK(file.mesh.triangles.size() == 36);
@@ -117,7 +97,7 @@ TEST_CASE("a glb file's nodes are applied, mirrors included") {
 }
 
 TEST_CASE("an obj file keeps its hard edges, and the missing material file is no matter") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const MeshFile file = load_mesh(folder.write("box.OBJ", obj()), true);
   CHECK(file.report.open_edges == 0);
   REQUIRE(file.mesh.normal_triangles.size() == 12);
@@ -131,7 +111,7 @@ TEST_CASE("an obj file keeps its hard edges, and the missing material file is no
 }
 
 TEST_CASE("z up is turned into y up") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const MeshFile file = load_mesh(folder.write("box.ply", binary_ply()), true);
   CHECK(bounds_of(file.mesh).low == DVec3(0, 0, -2));
   CHECK(bounds_of(file.mesh).high == DVec3(1, 3, 0));
@@ -139,7 +119,7 @@ TEST_CASE("z up is turned into y up") {
 }
 
 TEST_CASE("normals that are no normals are replaced by their triangle's own") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.write("bad.obj",
                                         "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 0\nvn nan 0 0\nvn 0 3 4\n"
                                         "f 1//1 2//2 3//3\n");
@@ -153,7 +133,7 @@ TEST_CASE("normals that are no normals are replaced by their triangle's own") {
 }
 
 TEST_CASE("an inside-out file is turned and an open one is counted") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 4 2\n";
   CHECK(load_mesh(folder.write("open.obj", text), false).report.open_edges == 3);
   const MeshFile closed = load_mesh(folder.write("closed.obj", text + "f 2 4 3\n"), false);
@@ -163,11 +143,11 @@ TEST_CASE("an inside-out file is turned and an open one is counted") {
 }
 
 TEST_CASE("files that are no mesh files are refused by name") {
-  const Folder folder;
-  const std::string missing = folder.path("missing.ply");
+  const TemporaryFolder folder;
+  const std::string missing = folder.at("missing.ply");
   CHECK(error_of(missing) == missing + ": cannot open: No such file or directory");
-  fs::create_directory(folder.path("folder.obj"));
-  CHECK(contains(error_of(folder.path("folder.obj")), "is a directory"));
+  fs::create_directory(folder.at("folder.obj"));
+  CHECK(contains(error_of(folder.at("folder.obj")), "is a directory"));
   CHECK(contains(error_of(folder.write("empty.stl", "")), "is empty"));
   for (const char* name : {"box.fbx", "box", "box.gltf"}) {
     const std::string line = error_of(folder.write(name, binary_ply()));
@@ -180,13 +160,13 @@ TEST_CASE("files that are no mesh files are refused by name") {
 }
 
 TEST_CASE("the extension decides the format, not the content") {
-  const Folder folder;
+  const TemporaryFolder folder;
   CHECK(contains(error_of(folder.write("ply.glb", binary_ply())), "cannot be read as .glb"));
   CHECK(contains(error_of(folder.write("obj.ply", obj())), "cannot be read as .ply"));
 }
 
 TEST_CASE("a file without a triangle is refused") {
-  const Folder folder;
+  const TemporaryFolder folder;
   CHECK(contains(error_of(folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nl 1 2\nl 2 3\np 1\n")),
                  "holds no triangles"));
   CHECK(contains(error_of(folder.write("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n")),
@@ -194,7 +174,7 @@ TEST_CASE("a file without a triangle is refused") {
 }
 
 TEST_CASE("vertices that are not finite are refused") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const float bad_values[] = {std::numeric_limits<float>::quiet_NaN(),
                               std::numeric_limits<float>::infinity()};
   for (const float bad : bad_values) {
@@ -209,7 +189,7 @@ TEST_CASE("vertices that are not finite are refused") {
 }
 
 TEST_CASE("indices out of range never reach the mesh") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const std::uint32_t bad : {8u, 1000000u, 0x7fffffffu, 0xffffffffu}) {
     std::string bytes = binary_ply();
     std::memcpy(&bytes[bytes.size() - 4], &bad, 4);
@@ -224,7 +204,7 @@ TEST_CASE("indices out of range never reach the mesh") {
 }
 
 TEST_CASE("a claim of four billion vertices is refused quickly") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Timer timer;
   for (const char* encoding : {"ascii", "binary_little_endian"}) {
     for (const char* count : {"4000000000", "4294967295"}) {
@@ -245,7 +225,7 @@ TEST_CASE("a claim of four billion vertices is refused quickly") {
 }
 
 TEST_CASE("nodes nested without end are refused") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string nodes;
   constexpr int kDepth = 200000;
   for (int i = 0; i < kDepth; ++i) nodes += "{\"children\":[" + std::to_string(i + 1) + "]},";
@@ -258,7 +238,7 @@ TEST_CASE("nodes nested without end are refused") {
 }
 
 TEST_CASE("a small file that instances its triangles beyond the limit is refused quickly") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Timer timer;
   std::string binary;
   for (int k = 0; k < 3; ++k) append(binary, box_corner(1 << k));
@@ -284,7 +264,7 @@ TEST_CASE("a small file that instances its triangles beyond the limit is refused
 }
 
 TEST_CASE("truncated files load what is left or are refused") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const Sample& sample : samples()) {
     CAPTURE(sample.name);
     const std::size_t step = std::max<std::size_t>(3, sample.bytes.size() / 100);
@@ -297,7 +277,7 @@ TEST_CASE("truncated files load what is left or are refused") {
 }
 
 TEST_CASE("files with flipped bytes load or are refused, and leave nothing behind") {
-  const Folder folder;
+  const TemporaryFolder folder;
   static_cast<void>(load_mesh(folder.write("first.ply", binary_ply()), false));
   const std::size_t descriptors = count_descriptors();
   std::mt19937 random(20240607);

@@ -16,6 +16,7 @@
 #include "io/image_file.h"
 #include "io/mesh_samples.h"
 #include "io/scene_file.h"
+#include "support/temporary_folder.h"
 
 namespace meander {
 namespace {
@@ -28,30 +29,22 @@ using Names = std::set<std::string>;
 class Planted {
  public:
   Planted() : started_in_(fs::current_path()) {
-    std::string name = (fs::temp_directory_path() / "meander_named_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    root_ = name;
     for (const char* folder : {"scene", "scene/parts", "outside", "elsewhere"})
-      fs::create_directory(root_ / folder);
+      fs::create_directory(root_.path() / folder);
     for (const char* secret : {"secret.mtl", "secret.png", "secret.bin"}) {
       write(std::string("outside/") + secret, "secret");
       write(std::string("scene/") + secret, "secret");
     }
     for (const char* decoy : {"box.obj", "box.ply", "box.glb"})
       write(std::string("elsewhere/") + decoy, "decoy");
-    fs::current_path(root_ / "elsewhere");
+    fs::current_path(root_.path() / "elsewhere");
   }
   Planted(const Planted&) = delete;
   Planted& operator=(const Planted&) = delete;
-  ~Planted() {
-    fs::current_path(started_in_);
-    fs::remove_all(root_);
-  }
+  ~Planted() { fs::current_path(started_in_); }
 
-  [[nodiscard]] std::string at(const std::string& name) const { return (root_ / name).string(); }
-  void write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(root_ / name, std::ios::binary) << bytes;
-  }
+  [[nodiscard]] std::string at(const std::string& name) const { return root_.at(name); }
+  void write(const std::string& name, const std::string& bytes) const { root_.write(name, bytes); }
   void write_scene(const std::string& mesh) const {
     write("scene/scene.toml",
           "[[material]]\nname = \"wax\"\npreset = \"marble\"\n[[object]]\nmaterial = \"wax\"\nmesh = '" +
@@ -60,7 +53,7 @@ class Planted {
 
  private:
   fs::path started_in_;
-  fs::path root_;
+  TemporaryFolder root_;
 };
 
 // Names of the files, from the root, that are opened from its making until they are asked for.
