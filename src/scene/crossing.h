@@ -15,6 +15,13 @@ enum class CrossingKind : std::uint8_t {
            // bounds
 };
 
+/// From a point inside a body along a unit direction.
+struct Step {
+  Vec3 from{0};
+  Vec3 direction{0, 0, 1};
+  Real distance = 0;
+};
+
 /// The outcome of one step in the body's own coordinates. `normal` (geometric) and `shading_normal` are unit,
 /// outward, and set only at an exit.
 struct Crossing {

@@ -25,25 +25,9 @@ struct ShortExit {
   std::uint32_t triangle = 0;
 };
 
-/// Which packets of the list of a ray's first cell it may leave by: a bit for each. No list where there is
-/// none, or where nothing is known.
-struct ShortHint {
-  const SurfaceCells::List* list = nullptr;
-  unsigned due = 0;
-};
-
 /// Watertight as Embree's robust test is: a ray that passes an edge meets one of the two triangles there,
 /// whose edge functions are the same numbers with the sign turned. The same bits on every instruction set.
-/// The hint is the ray's own.
-[[nodiscard]] ShortExit find_exit(const Packets& packets, const SurfaceCells& cells, const ShortRay& ray,
-                                  const ShortHint& hint = {}) noexcept;
-
-/// The beginning of find_exit, for who has several rays under way: those of one wait for those of another.
-/// Asks for the memory that the rest will need.
-[[nodiscard]] ShortHint foresee_exit(const Packets& packets, const SurfaceCells& cells,
-                                     const ShortRay& ray) noexcept;
-
-/// Asks for the memory that foresee_exit of a ray from here will need.
-void prefetch_exit(const Packets& packets, const SurfaceCells& cells, const glm::vec3& origin) noexcept;
+[[nodiscard]] ShortExit find_exit(const Packets& packets, const SurfaceCells& cells,
+                                  const ShortRay& ray) noexcept;
 
 }  // namespace meander

@@ -5,6 +5,7 @@
 #include <hwy/cache_control.h>
 
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "walk/lanes.h"
@@ -113,11 +114,10 @@ class LaneWalks {
     return {lanes_.position[0][lane], lanes_.position[1][lane], lanes_.position[2][lane]};
   }
 
-  // Rays are begun for all resting lanes together where the world can, part by part, so that one does not
-  // wait for what another waits for.
-  static constexpr bool kTogether = requires(const W& world, const Vec3& p, Real t) {
-    world.prefetch(p);
-    world.finish_crossing(world.begin_crossing(p, p, t, world.foresee_crossing(p, p, t)));
+  // Rays are begun for all resting lanes together where the world can, so that one does not wait for what
+  // another waits for.
+  static constexpr bool kTogether = requires(const W& world, std::span<const Step> steps) {
+    world.begin_crossings(steps, std::span<typename W::Begun>());
   };
 
   void find_resting() noexcept {
@@ -129,32 +129,18 @@ class LaneWalks {
     }
   }
 
-  // A ray under way: what balls do not answer for of a lane's step.
-  struct LaneRay {
-    int lane;
-    Vec3 origin;
-    Vec3 direction;
-    Real distance;
-  };
-
   void begin_rays() noexcept {
-    LaneRay rays[kLanes];
-    decltype(std::declval<const W&>().foresee_crossing(Vec3(), Vec3(), Real())) hints[kLanes];
-    int count = 0;
+    Step rays[kLanes];
+    std::size_t count = 0;
     for (int i = 0; i < resting_count_; ++i) {
       const int lane = resting_[i];
       if (lanes_.state[lane] != static_cast<std::uint32_t>(LaneState::crossing)) continue;
-      LaneRay& ray = rays[count];
-      ray = ray_of(lane);
-      count += ray.distance > 0;
+      rays[count] = ray_of(lane);
+      ray_[lane] = count;
+      count += rays[count].distance > 0;
     }
-    counters_.rays += static_cast<std::uint64_t>(count);
-    for (int i = 0; i < count; ++i) world_.prefetch(rays[i].origin);
-    for (int i = 0; i < count; ++i)
-      hints[i] = world_.foresee_crossing(rays[i].origin, rays[i].direction, rays[i].distance);
-    for (int i = 0; i < count; ++i)
-      begun_[rays[i].lane] =
-          world_.begin_crossing(rays[i].origin, rays[i].direction, rays[i].distance, hints[i]);
+    counters_.rays += count;
+    world_.begin_crossings(std::span(rays).first(count), std::span(begun_).first(count));
   }
 
   // Of a lane's step. Where the hero channel does not collide, the kernel divides 0 by 0 once in 2^24 steps.
@@ -163,8 +149,9 @@ class LaneWalks {
     return distance >= 0 ? distance : std::numeric_limits<Real>::infinity();
   }
 
-  // The first part of a long step is often in balls, and all of some.
-  [[nodiscard]] LaneRay ray_of(int lane) noexcept {
+  // What balls do not answer for of a lane's step: the first part of a long one is often in balls, and all of
+  // some.
+  [[nodiscard]] Step ray_of(int lane) noexcept {
     const Vec3 p(position(lane));
     const Vec3 d(lanes_.direction[0][lane], lanes_.direction[1][lane], lanes_.direction[2][lane]);
     const Real distance = distance_of(lane);
@@ -173,7 +160,7 @@ class LaneWalks {
     if (balls && distance * Real(balls->cells_per_unit) > 1)
       clear = balls->clear_length(ball_of(lanes_, lane), position(lane), glm::vec3(d), distance);
     clear_[lane] = clear;
-    return {lane, p + clear * d, d, distance - clear};
+    return {p + clear * d, d, distance - clear};
   }
 
   [[nodiscard]] Crossing finish_ray(int lane, const Walker& walker) noexcept {
@@ -181,7 +168,7 @@ class LaneWalks {
     if constexpr (kTogether) {
       if (clear_[lane] == distance)
         return {CrossingKind::none, distance, walker.position + distance * walker.direction, {}, {}};
-      Crossing crossing = world_.finish_crossing(begun_[lane]);
+      Crossing crossing = world_.finish_crossing(begun_[ray_[lane]]);
       crossing.distance += clear_[lane];
       return crossing;
     } else {
@@ -255,6 +242,7 @@ class LaneWalks {
       return char{};
   }
   decltype(begun_kind()) begun_[kTogether ? kLanes : 1];
+  std::size_t ray_[kLanes] = {};  // of each crossing lane, its place in begun_
   Real clear_[kLanes] = {};  // of each crossing lane's step, the part that balls answer for
   int resting_[kLanes + 1] = {};
   int resting_count_ = 0;
