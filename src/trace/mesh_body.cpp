@@ -173,12 +173,19 @@ MeshBody::Begun MeshBody::restore(Begun begun, Real distance) const noexcept {
 }
 
 void MeshBody::begin_crossings(std::span<const Step> steps, std::span<Begun> begun) const noexcept {
-  ShortRay rays[kRayBatch];
+  ShortRays rays;
   ShortExit exits[kRayBatch];
   for (std::size_t first = 0; first < steps.size(); first += kRayBatch) {
     const std::size_t count = std::min(steps.size() - first, kRayBatch);
-    for (std::size_t i = 0; i < count; ++i) rays[i] = short_ray(scaled(steps[first + i]));
-    find_exits(packets_, cells_, std::span(rays).first(count), std::span(exits).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const ShortRay ray = short_ray(scaled(steps[first + i]));
+      for (int axis = 0; axis < 3; ++axis) {
+        rays.origin[axis][i] = ray.origin[axis];
+        rays.direction[axis][i] = ray.direction[axis];
+      }
+      rays.distance[i] = ray.distance;
+    }
+    find_exits(packets_, cells_, rays, std::span(exits).first(count));
     for (std::size_t i = 0; i < count; ++i) {
       const Step& step = steps[first + i];
       Begun& result = begun[first + i] = restore(cross(scaled(step), exits[i]), step.distance);

@@ -17,13 +17,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace meander::HWY_NAMESPACE {
 
+using R = hn::ScalableTag<float>;  // a lane a ray
+using RU = hn::ScalableTag<std::uint32_t>;
+using VR = hn::Vec<R>;
+using MR = hn::Mask<R>;
+
+HWY_INLINE VR rays_of(float value) { return hn::Set(R(), value); }
+
 // Rays side by side: each part of the search is done for all of them before the next part, in a loop without
 // branches, so that the processor has many rays' loads under way and guesses nothing. What goes on after a
 // part is appended to a list whether it is wanted or not, and the list's end moves if it is.
 class ExitBatch {
  public:
-  HWY_INLINE ExitBatch(const Packets& packets, const SurfaceCells& grid, std::span<const ShortRay> rays)
-      : packets_(packets), grid_(grid), rays_(rays) {}
+  HWY_INLINE ExitBatch(const Packets& packets, const SurfaceCells& grid, const ShortRays& rays,
+                       std::size_t count)
+      : packets_(packets), grid_(grid), rays_(rays), count_(count) {}
 
   HWY_INLINE void run(std::span<ShortExit> exits) {
     begin();
@@ -40,43 +48,92 @@ class ExitBatch {
   }
 
  private:
-  // A ray's way so far. `limit`: beyond what is wanted, or where the nearest exit is.
-  struct Way {
-    CellWalk walk;
-    float limit;
-    std::uint32_t known;  // 1 when all of the ray has been seen
-    std::uint32_t packet;
-    std::uint32_t slot;  // of the packet, or kNone
-  };
-  static constexpr std::uint32_t kNone = kPacket;
+  using Row = float[kRayBatch];
 
   struct Pair {
     std::uint32_t ray;
     std::uint32_t number;  // of a packet, or of a list
   };
 
+  // Of a ray: under way, seen to its end, or not for the grid.
+  static constexpr std::uint32_t kActive = 0;
+  static constexpr std::uint32_t kKnown = 1;
+  static constexpr std::uint32_t kUnknown = 2;
+
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  static constexpr std::uint32_t kWidth = kPacket;
+  static constexpr std::size_t kWidest = 16;  // what a vector writes beyond the end of a list
+
+  // As CellWalk, whose numbers these are.
   HWY_INLINE void begin() {
-    for (std::uint32_t i = 0; i < rays_.size(); ++i) {
-      const ShortRay& ray = rays_[i];
-      Way& way = ways_[i];
-      way.walk = CellWalk(grid_, ray);
-      way.limit = std::nextafter(ray.distance, std::numeric_limits<float>::infinity());
-      way.known = 0;
-      way.packet = 0;
-      way.slot = kNone;
-      const bool inside = in_grid(grid_, way.walk.cell);
-      active_[active_count_] = i;
-      active_count_ += inside & (ray.distance * grid_.cells_per_unit < kLongest);
-      hwy::Prefetch(&grid_.bricks[inside ? brick_of(grid_, way.walk.cell) : 0]);
+    for (std::size_t at = 0; at < count_; at += hn::Lanes(R())) {
+      const VR distance = hn::Load(R(), rays_.distance + at);
+      for (int axis = 0; axis < 3; ++axis) {
+        const VR origin = hn::Load(R(), rays_.origin[axis] + at);
+        const VR place = hn::Mul(hn::Sub(origin, rays_of(grid_.low[axis])), rays_of(grid_.cells_per_unit));
+        const VR floor = hn::Floor(place);
+        const VR d =
+            hn::Mul(hn::Load(R(), rays_.direction[axis] + at), rays_of(grid_.cells_per_unit));
+        const MR forward = hn::Gt(d, hn::Zero(R()));
+        const VR way = hn::IfThenElse(forward, hn::Sub(hn::Add(floor, rays_of(1)), place),
+                                      hn::Sub(place, floor));
+        const MR moves = hn::Gt(hn::Abs(d), rays_of(1e-12f));
+        const VR inverse = hn::Div(rays_of(1), hn::Abs(d));
+        hn::Store(floor, R(), cell_[axis] + at);
+        hn::Store(hn::IfThenElse(forward, rays_of(1), rays_of(-1)), R(), step_[axis] + at);
+        hn::Store(hn::IfThenElse(moves, inverse, hn::Inf(R())), R(), between_[axis] + at);
+        hn::Store(hn::IfThenElse(moves, hn::Mul(way, inverse), hn::Inf(R())), R(), next_[axis] + at);
+      }
+      const auto number = hn::Add(hn::Iota(RU(), 0), hn::Set(RU(), static_cast<std::uint32_t>(at)));
+      const auto real = hn::Lt(number, hn::Set(RU(), static_cast<std::uint32_t>(count_)));
+      const MR is_short = hn::Lt(hn::Mul(distance, rays_of(grid_.cells_per_unit)), rays_of(kLongest));
+      // The next number after the distance.
+      const auto beyond = hn::Add(hn::BitCast(RU(), distance), hn::Set(RU(), 1));
+      hn::Store(hn::BitCast(R(), beyond), R(), limit_ + at);
+      hn::Store(hn::Set(RU(), kNone), RU(), best_ + at);
+      const MR active = keep_active(at, hn::And(is_short, hn::RebindMask(R(), real)));
+      hn::Store(states(active, kActive, kUnknown), RU(), state_ + at);
     }
   }
 
+  [[nodiscard]] static HWY_INLINE hn::Vec<RU> states(MR mask, std::uint32_t yes, std::uint32_t no) {
+    return hn::IfThenElse(hn::RebindMask(RU(), mask), hn::Set(RU(), yes), hn::Set(RU(), no));
+  }
+
+  // Lists those of some rays that are in the grid, and asks for their bricks.
+  HWY_INLINE MR keep_active(std::size_t at, MR wanted) {
+    MR inside = wanted;
+    for (int axis = 0; axis < 3; ++axis) {
+      const VR cell = hn::Load(R(), cell_[axis] + at);
+      const VR end = rays_of(static_cast<float>(grid_.size[axis]));
+      inside = hn::And(inside, hn::And(hn::Ge(cell, hn::Zero(R())), hn::Lt(cell, end)));
+    }
+    const auto whole = [&](int axis) {
+      const VR cell = hn::IfThenElseZero(inside, hn::Load(R(), cell_[axis] + at));
+      return hn::BitCast(RU(), hn::ConvertTo(hn::RebindToSigned<R>(), cell));
+    };
+    const auto x = whole(0);
+    const auto y = whole(1);
+    const auto z = whole(2);
+    const auto sizes = [](int size) { return hn::Set(RU(), static_cast<std::uint32_t>(size)); };
+    auto brick = hn::Mul(hn::ShiftRight<2>(z), sizes(grid_.bricks_size.y));
+    brick = hn::Mul(hn::Add(brick, hn::ShiftRight<2>(y)), sizes(grid_.bricks_size.x));
+    hn::Store(hn::Add(brick, hn::ShiftRight<2>(x)), RU(), brick_ + at);
+    const auto three = hn::Set(RU(), 3);
+    const auto row = hn::Or(hn::ShiftLeft<2>(hn::And(z, three)), hn::And(y, three));
+    hn::Store(hn::Or(hn::ShiftLeft<2>(row), hn::And(x, three)), RU(), bit_ + at);
+    const auto number = hn::Add(hn::Iota(RU(), 0), hn::Set(RU(), static_cast<std::uint32_t>(at)));
+    active_count_ +=
+        hn::CompressStore(number, hn::RebindMask(RU(), inside), RU(), active_ + active_count_);
+    return inside;
+  }
+
   HWY_INLINE void find_lists() {
+    for (std::size_t i = 0; i < active_count_; ++i) hwy::Prefetch(&grid_.bricks[brick_[active_[i]]]);
     for (std::size_t i = 0; i < active_count_; ++i) {
       const std::uint32_t ray = active_[i];
-      const glm::ivec3& cell = ways_[ray].walk.cell;
-      const SurfaceCells::Brick& brick = grid_.bricks[brick_of(grid_, cell)];
-      const int bit = ((cell.z & 3) * 4 + (cell.y & 3)) * 4 + (cell.x & 3);
+      const SurfaceCells::Brick& brick = grid_.bricks[brick_[ray]];
+      const std::uint32_t bit = bit_[ray];
       const std::uint64_t before = brick.cells & ((std::uint64_t{1} << bit) - 1);
       const std::uint32_t list = brick.first + static_cast<std::uint32_t>(std::popcount(before));
       lists_[list_count_] = {ray, list};
@@ -105,14 +162,17 @@ class ExitBatch {
     list_count_ = more_count;
   }
 
+  [[nodiscard]] HWY_INLINE V3 row(const Row (&rows)[3], std::uint32_t ray) const {
+    return {hn::Set(F(), rows[0][ray]), hn::Set(F(), rows[1][ray]), hn::Set(F(), rows[2][ray])};
+  }
+
   HWY_INLINE void find_due() {
     due_count_ = 0;
     for (std::size_t i = 0; i < pair_count_; ++i) {
       const Pair pair = pairs_[i];
-      const ShortRay& ray = rays_[pair.ray];
       pairs_[due_count_] = pair;
-      due_count_ += may_leave(packets_.planes[pair.number], set(ray.origin), set(ray.direction),
-                              std::min(ray.distance, ways_[pair.ray].limit));
+      due_count_ += may_leave(packets_.planes[pair.number], row(rays_.origin, pair.ray),
+                              row(rays_.direction, pair.ray), limit_[pair.ray]);
     }
     for (std::size_t i = 0; i < due_count_; ++i) {
       const auto* lines = reinterpret_cast<const char*>(&packets_.packets[pairs_[i].number]);
@@ -120,60 +180,90 @@ class ExitBatch {
     }
   }
 
+  [[nodiscard]] HWY_INLINE Exits meet(std::uint32_t ray, std::uint32_t packet, std::size_t at) const {
+    return find_exits_of(packets_.packets[packet], at, row(rays_.origin, ray), row(rays_.direction, ray),
+                         rays_.distance[ray]);
+  }
+
   HWY_INLINE void meet_due() {
     for (std::size_t i = 0; i < due_count_; ++i) {
       const Pair pair = pairs_[i];
-      const ShortRay& ray = rays_[pair.ray];
-      Way& way = ways_[pair.ray];
       for (std::size_t at = 0; at < kPacket; at += hn::Lanes(F())) {
-        const Exits exits = find_exits_of(packets_.packets[pair.number], at, set(ray.origin),
-                                          set(ray.direction), ray.distance);
+        const Exits exits = meet(pair.ray, pair.number, at);
         const VF least = hn::MinOfLanes(F(), exits.t);
         const float t = hn::GetLane(least);
         const auto lane = static_cast<std::uint32_t>(hn::FindFirstTrue(F(), hn::Eq(exits.t, least)));
-        const bool nearer = t < way.limit;
-        way.limit = nearer ? t : way.limit;
-        way.packet = nearer ? pair.number : way.packet;
-        way.slot = nearer ? static_cast<std::uint32_t>(at) + lane : way.slot;
+        // Chosen by bits: the compiler would make it a branch.
+        const std::uint32_t nearer = -static_cast<std::uint32_t>(t < limit_[pair.ray]);
+        const auto choose = [nearer](std::uint32_t yes, std::uint32_t no) {
+          return (yes & nearer) | (no & ~nearer);
+        };
+        limit_[pair.ray] = std::bit_cast<float>(
+            choose(std::bit_cast<std::uint32_t>(t), std::bit_cast<std::uint32_t>(limit_[pair.ray])));
+        best_[pair.ray] =
+            choose(pair.number * kWidth + static_cast<std::uint32_t>(at) + lane, best_[pair.ray]);
       }
     }
   }
 
   HWY_INLINE void advance() {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < active_count_; ++i) {
-      const std::uint32_t ray = active_[i];
-      Way& way = ways_[ray];
-      const bool goes_on = !(way.walk.end() >= std::min(rays_[ray].distance, way.limit));
-      way.walk.advance();
-      const bool stays = goes_on & in_grid(grid_, way.walk.cell);
-      way.known = !stays;
-      active_[count] = ray;
-      count += stays;
-      hwy::Prefetch(&grid_.bricks[stays ? brick_of(grid_, way.walk.cell) : 0]);
+    active_count_ = 0;
+    for (std::size_t at = 0; at < count_; at += hn::Lanes(R())) {
+      const auto state = hn::Load(RU(), state_ + at);
+      const MR active = hn::RebindMask(R(), hn::Eq(state, hn::Set(RU(), kActive)));
+      const VR x = hn::Load(R(), next_[0] + at);
+      const VR y = hn::Load(R(), next_[1] + at);
+      const VR z = hn::Load(R(), next_[2] + at);
+      const VR least = hn::Min(x, hn::Min(y, z));
+      const VR end = hn::Min(hn::Load(R(), rays_.distance + at), hn::Load(R(), limit_ + at));
+      const MR goes_on = hn::AndNot(hn::Ge(least, end), active);
+      const MR along_x = hn::Eq(x, least);
+      const MR along_y = hn::AndNot(along_x, hn::Eq(y, least));
+      move(at, 0, along_x);
+      move(at, 1, along_y);
+      move(at, 2, hn::Not(hn::Or(along_x, along_y)));
+      const MR stays = keep_active(at, goes_on);
+      const auto now = states(stays, kActive, kKnown);
+      hn::Store(hn::IfThenElse(hn::RebindMask(RU(), active), now, state), RU(), state_ + at);
     }
-    active_count_ = count;
+  }
+
+  HWY_INLINE void move(std::size_t at, int axis, MR moves) {
+    const VR cell = hn::Load(R(), cell_[axis] + at);
+    const VR next = hn::Load(R(), next_[axis] + at);
+    const VR step = hn::IfThenElseZero(moves, hn::Load(R(), step_[axis] + at));
+    const VR between = hn::Load(R(), between_[axis] + at);
+    hn::Store(hn::Add(cell, step), R(), cell_[axis] + at);
+    hn::Store(hn::IfThenElse(moves, hn::Add(next, between), next), R(), next_[axis] + at);
   }
 
   HWY_INLINE void finish(std::span<ShortExit> exits) {
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
-      const Way& way = ways_[i];
-      exits[i].kind = way.known ? ShortExit::Kind::none : ShortExit::Kind::unknown;
-      if (!way.known | (way.slot == kNone)) continue;
-      const std::size_t at = way.slot / hn::Lanes(F()) * hn::Lanes(F());
-      const Packet& packet = packets_.packets[way.packet];
-      const ShortRay& ray = rays_[i];
-      exits[i] = pick(find_exits_of(packet, at, set(ray.origin), set(ray.direction), ray.distance), packet,
-                      at, way.slot - at);
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      exits[i].kind = state_[i] == kKnown ? ShortExit::Kind::none : ShortExit::Kind::unknown;
+      if (state_[i] != kKnown || best_[i] == kNone) continue;
+      const std::uint32_t packet = best_[i] / kWidth;
+      const std::size_t slot = best_[i] % kWidth;
+      const std::size_t at = slot / hn::Lanes(F()) * hn::Lanes(F());
+      exits[i] = pick(meet(i, packet, at), packets_.packets[packet], at, slot - at);
     }
   }
 
   const Packets& packets_;
   const SurfaceCells& grid_;
-  std::span<const ShortRay> rays_;
-  Way ways_[kRayBatch];
-  std::uint32_t active_[kRayBatch];
-  Pair lists_[kRayBatch];
+  const ShortRays& rays_;
+  std::size_t count_;
+  // Of each ray, the cells as CellWalk has them, and where that of the moment is.
+  alignas(64) Row cell_[3];
+  Row step_[3];
+  Row next_[3];
+  Row between_[3];
+  Row limit_;  // just beyond what is wanted, or where the nearest exit so far is
+  std::uint32_t best_[kRayBatch];   // the triangle there, by packet and slot, or kNone
+  std::uint32_t state_[kRayBatch];
+  std::uint32_t brick_[kRayBatch];
+  std::uint32_t bit_[kRayBatch];
+  std::uint32_t active_[kRayBatch + kWidest];
+  Pair lists_[kRayBatch + 1];
   Pair pairs_[4 * kRayBatch + 1];
   std::size_t active_count_ = 0;
   std::size_t list_count_ = 0;
@@ -181,9 +271,9 @@ class ExitBatch {
   std::size_t due_count_ = 0;
 };
 
-void find_all(const Packets& packets, const SurfaceCells& grid, std::span<const ShortRay> rays,
+void find_all(const Packets& packets, const SurfaceCells& grid, const ShortRays& rays,
               std::span<ShortExit> exits) {
-  ExitBatch(packets, grid, rays).run(exits);
+  ExitBatch(packets, grid, rays, exits.size()).run(exits);
 }
 
 }  // namespace meander::HWY_NAMESPACE
@@ -194,13 +284,12 @@ namespace meander {
 
 HWY_EXPORT(find_all);
 
-void find_exits(const Packets& packets, const SurfaceCells& cells, std::span<const ShortRay> rays,
+void find_exits(const Packets& packets, const SurfaceCells& cells, const ShortRays& rays,
                 std::span<ShortExit> exits) noexcept {
-  if (cells.bricks.empty()) {
+  if (cells.bricks.empty())
     std::fill(exits.begin(), exits.end(), ShortExit{});
-    return;
-  }
-  HWY_DYNAMIC_DISPATCH(find_all)(packets, cells, rays, exits);
+  else
+    HWY_DYNAMIC_DISPATCH(find_all)(packets, cells, rays, exits);
 }
 
 }  // namespace meander

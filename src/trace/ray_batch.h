@@ -10,8 +10,15 @@ namespace meander {
 /// The most rays of one call.
 inline constexpr std::size_t kRayBatch = 128;
 
-/// What find_exit finds for each of the rays, in as many exits; the same bits.
-void find_exits(const Packets& packets, const SurfaceCells& cells, std::span<const ShortRay> rays,
+/// Rays in rows.
+struct alignas(64) ShortRays {
+  float origin[3][kRayBatch];
+  float direction[3][kRayBatch];
+  float distance[kRayBatch];
+};
+
+/// What find_exit finds for each of the first rays, as many as there are exits; the same bits.
+void find_exits(const Packets& packets, const SurfaceCells& cells, const ShortRays& rays,
                 std::span<ShortExit> exits) noexcept;
 
 }  // namespace meander
