@@ -123,8 +123,8 @@ class ExitBatch {
     const auto row = hn::Or(hn::ShiftLeft<2>(hn::And(z, three)), hn::And(y, three));
     hn::Store(hn::Or(hn::ShiftLeft<2>(row), hn::And(x, three)), RU(), bit_ + at);
     const auto number = hn::Add(hn::Iota(RU(), 0), hn::Set(RU(), static_cast<std::uint32_t>(at)));
-    active_count_ +=
-        hn::CompressStore(number, hn::RebindMask(RU(), inside), RU(), active_ + active_count_);
+    hn::StoreU(hn::Compress(number, hn::RebindMask(RU(), inside)), RU(), active_ + active_count_);
+    active_count_ += hn::CountTrue(R(), inside);
     return inside;
   }
 
