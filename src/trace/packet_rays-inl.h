@@ -19,65 +19,83 @@ namespace meander::HWY_NAMESPACE {
 
 // One component of the cross product of two edges, by those two of the three edges whose products cancel
 // less.
-HWY_INLINE VF stable(VF ay, VF bz, VF az, VF by, VF cz, VF cy) {
-  const VF ab = hn::Mul(az, by);
-  const VF bc = hn::Mul(bz, cy);
+template <class V>
+HWY_INLINE V stable(V ay, V bz, V az, V by, V cz, V cy) {
+  const V ab = hn::Mul(az, by);
+  const V bc = hn::Mul(bz, cy);
   return hn::IfThenElse(hn::Lt(hn::Abs(ab), hn::Abs(bc)), hn::Sub(hn::Mul(ay, bz), ab),
                         hn::Sub(hn::Mul(by, cz), bc));
 }
-HWY_INLINE V3 normal_of(const V3& a, const V3& b, const V3& c) {
+template <class V>
+HWY_INLINE Vec3Of<V> normal_of(const Vec3Of<V>& a, const Vec3Of<V>& b, const Vec3Of<V>& c) {
   return {stable(a.y, b.z, a.z, b.y, c.z, c.y), stable(a.z, b.x, a.x, b.z, c.x, c.z),
           stable(a.x, b.y, a.y, b.x, c.y, c.x)};
 }
 
-// Whether any of a packet's planes is passed outward, or nearly, within a distance.
-[[nodiscard]] HWY_INLINE bool may_leave(const PacketPlanes& planes, const V3& origin, const V3& direction,
-                                        float distance) {
+template <class V>
+struct Flight {
+  Vec3Of<V> origin;
+  Vec3Of<V> direction;
+  V distance;
+};
+
+// Which planes, of a normal and an offset, a flight passes outward, or nearly.
+template <class D, class V>
+[[nodiscard]] HWY_INLINE hn::Mask<D> passes(D d, const Flight<V>& flight, const Vec3Of<V>& normal, V offset) {
+  const V from = hn::Sub(dot(normal, flight.origin), offset);
+  const V to = hn::Add(from, hn::Mul(flight.distance, dot(normal, flight.direction)));
+  const V slack = hn::Set(d, 2 * kPlaneError);
+  return hn::And(hn::Le(from, slack), hn::Ge(to, hn::Neg(slack)));
+}
+
+// Whether any of a packet's planes is passed outward, or nearly.
+[[nodiscard]] HWY_INLINE bool may_leave(const PacketPlanes& planes, const Flight<VF>& flight) {
   bool may = false;
-  for (std::size_t at = 0; at < kPacket; at += hn::Lanes(F())) {
-    const V3 normal = load(planes.normal, at);
-    const VF from = hn::Sub(dot(normal, origin), hn::Load(F(), planes.offset + at));
-    const VF to = hn::Add(from, hn::Mul(hn::Set(F(), distance), dot(normal, direction)));
-    const VF slack = hn::Set(F(), 2 * kPlaneError);
-    may |= !hn::AllFalse(F(), hn::And(hn::Le(from, slack), hn::Ge(to, hn::Neg(slack))));
-  }
+  for (std::size_t at = 0; at < kPacket; at += hn::Lanes(F()))
+    may |= !hn::AllFalse(
+        F(), passes(F(), flight, load(planes.normal, at), hn::Load(F(), planes.offset + at)));
   return may;
 }
 
-// Where a ray leaves by some triangles: the distance, infinite where it does not or beyond a distance; the
-// weights of the second and third corners; the normals, of any length.
+// Where a flight leaves by some triangles: the distance, infinite where it does not; the weights of the
+// second and third corners; the normals, of any length.
+template <class V>
 struct Exits {
-  VF t;
-  VF u;
-  VF v;
-  V3 normal;
+  V t;
+  V u;
+  V v;
+  Vec3Of<V> normal;
 };
 
-[[nodiscard]] HWY_INLINE Exits find_exits_of(const Packet& packet, std::size_t at, const V3& origin,
-                                             const V3& direction, float distance) {
-  const V3 v0 = load(packet.corner[0], at) - origin;
-  const V3 v1 = load(packet.corner[1], at) - origin;
-  const V3 v2 = load(packet.corner[2], at) - origin;
-  const V3 e0 = v2 - v0;
-  const V3 e1 = v0 - v1;
-  const V3 e2 = v1 - v2;
-  const VF u = dot(cross(e0, v2 + v0), direction);
-  const VF v = dot(cross(e1, v0 + v1), direction);
-  const VF w = dot(cross(e2, v1 + v2), direction);
-  const VF sum = hn::Add(hn::Add(u, v), w);
-  const VF rounding = hn::Mul(hn::Abs(sum), hn::Set(F(), 0x1p-23f));
-  const MF leaving = hn::Ge(hn::Min(u, hn::Min(v, w)), hn::Neg(rounding));
-  const MF entering = hn::Le(hn::Max(u, hn::Max(v, w)), rounding);
-  const V3 normal = normal_of(e0, e1, e2);
-  const VF along = dot(normal, direction);
-  const VF t = hn::Div(dot(v0, normal), along);
-  const MF within = hn::And(hn::Ge(t, hn::Zero(F())), hn::Le(t, hn::Set(F(), distance)));
-  const MF exits = hn::And(hn::And(hn::Or(leaving, entering), hn::Gt(along, hn::Zero(F()))), within);
-  return {hn::IfThenElse(exits, t, hn::Inf(F())), hn::Div(u, sum), hn::Div(v, sum), normal};
+// The corners relative to the origin.
+template <class D, class V>
+[[nodiscard]] HWY_INLINE Exits<V> exits_by(D d, const Flight<V>& flight, const Vec3Of<V>& v0,
+                                           const Vec3Of<V>& v1, const Vec3Of<V>& v2) {
+  const Vec3Of<V> e0 = v2 - v0;
+  const Vec3Of<V> e1 = v0 - v1;
+  const Vec3Of<V> e2 = v1 - v2;
+  const V u = dot(cross(e0, v2 + v0), flight.direction);
+  const V v = dot(cross(e1, v0 + v1), flight.direction);
+  const V w = dot(cross(e2, v1 + v2), flight.direction);
+  const V sum = hn::Add(hn::Add(u, v), w);
+  const V rounding = hn::Mul(hn::Abs(sum), hn::Set(d, 0x1p-23f));
+  const auto leaving = hn::Ge(hn::Min(u, hn::Min(v, w)), hn::Neg(rounding));
+  const auto entering = hn::Le(hn::Max(u, hn::Max(v, w)), rounding);
+  const Vec3Of<V> normal = normal_of(e0, e1, e2);
+  const V along = dot(normal, flight.direction);
+  const V t = hn::Div(dot(v0, normal), along);
+  const auto within = hn::And(hn::Ge(t, hn::Zero(d)), hn::Le(t, flight.distance));
+  const auto exits = hn::And(hn::And(hn::Or(leaving, entering), hn::Gt(along, hn::Zero(d))), within);
+  return {hn::IfThenElse(exits, t, hn::Inf(d)), hn::Div(u, sum), hn::Div(v, sum), normal};
 }
 
-// The exit by one of a packet's triangles, of which find_exits_of has told.
-[[nodiscard]] HWY_INLINE ShortExit pick(const Exits& exits, const Packet& packet, std::size_t at,
+[[nodiscard]] HWY_INLINE Exits<VF> exits_by(const Packet& packet, std::size_t at, const Flight<VF>& flight) {
+  return exits_by(F(), flight, load(packet.corner[0], at) - flight.origin,
+                  load(packet.corner[1], at) - flight.origin, load(packet.corner[2], at) - flight.origin);
+}
+
+// The exit by one of a packet's triangles.
+[[nodiscard]] HWY_INLINE ShortExit pick(const Exits<VF>& exits, const Packet& packet, std::size_t at,
                                         std::size_t lane) {
   alignas(32) float rows[6][kPacket];
   const VF values[6] = {exits.t, exits.u, exits.v, exits.normal.x, exits.normal.y, exits.normal.z};

@@ -18,8 +18,7 @@ class ExitSearch {
  public:
   HWY_INLINE ExitSearch(const Packets& packets, const ShortRay& ray)
       : packets_(packets),
-        origin_(set(ray.origin)),
-        direction_(set(ray.direction)),
+        flight_{set(ray.origin), set(ray.direction), hn::Set(F(), ray.distance)},
         distance_(ray.distance) {}
 
   [[nodiscard]] HWY_INLINE float distance() const { return distance_; }
@@ -28,27 +27,27 @@ class ExitSearch {
   HWY_INLINE void look_into(const SurfaceCells::List& list) {
     for (const std::uint32_t number : list.packets) {
       if (number >= packets_.nothing()) return;
-      if (!may_leave(packets_.planes[number], origin_, direction_, distance_)) continue;
+      if (!may_leave(packets_.planes[number], flight_)) continue;
       const Packet& packet = packets_.packets[number];
       for (std::size_t at = 0; at < kPacket; at += hn::Lanes(F()))
-        keep(find_exits_of(packet, at, origin_, direction_, distance_), packet, at);
+        keep(exits_by(packet, at, flight_), packet, at);
     }
   }
 
  private:
-  void keep(const Exits& exits, const Packet& packet, std::size_t at) {
+  void keep(const Exits<VF>& exits, const Packet& packet, std::size_t at) {
     const float t = hn::GetLane(hn::MinOfLanes(F(), exits.t));
     if (!(t <= distance_) || (found_.kind == ShortExit::Kind::exit && t == distance_)) return;
     const auto lane = hn::FindFirstTrue(F(), hn::Eq(exits.t, hn::Set(F(), t)));
     found_ = pick(exits, packet, at, static_cast<std::size_t>(lane));
     distance_ = t;
+    flight_.distance = hn::Set(F(), t);
   }
 
   const Packets& packets_;
-  V3 origin_;
-  V3 direction_;
+  Flight<VF> flight_;
   float distance_;
-  ShortExit found_{ShortExit::Kind::none, 0, 0, 0, glm::vec3(0), glm::vec3(0), 0};
+  ShortExit found_{ShortExit::Kind::none, 0, 0, 0, {}, {}, 0};
 };
 
 ShortExit find(const Packets& packets, const SurfaceCells& grid, const ShortRay& ray) {

@@ -16,13 +16,13 @@ struct ShortRay {
 /// second and third corners weigh u and v; `normal` has that triangle's direction outward, and any length.
 /// `unknown`: the ray is too long for the grid, or starts beyond it.
 struct ShortExit {
-  enum class Kind { none, exit, unknown } kind = Kind::unknown;
-  float distance = 0;
-  float u = 0;
-  float v = 0;
-  glm::vec3 point{0};
-  glm::vec3 normal{0};
-  std::uint32_t triangle = 0;
+  enum class Kind { unknown, none, exit } kind;
+  float distance;
+  float u;
+  float v;
+  glm::vec3 point;
+  glm::vec3 normal;
+  std::uint32_t triangle;
 };
 
 /// Watertight as Embree's robust test is: a ray that passes an edge meets one of the two triangles there,

@@ -38,7 +38,7 @@ class ExitBatch {
     for (int i = 0; i < kMostCells && active_count_ > 0; ++i) {
       find_lists();
       while (list_count_ > 0) {
-        find_pairs();
+        ask_planes();
         find_due();
         meet_due();
       }
@@ -68,6 +68,10 @@ class ExitBatch {
   HWY_INLINE void begin() {
     for (std::size_t at = 0; at < count_; at += hn::Lanes(R())) {
       const VR distance = hn::Load(R(), rays_.distance + at);
+      hn::StoreInterleaved4(hn::Load(R(), rays_.origin[0] + at), hn::Load(R(), rays_.origin[1] + at),
+                            hn::Load(R(), rays_.origin[2] + at), distance, R(), from_ + 4 * at);
+      hn::StoreInterleaved4(hn::Load(R(), rays_.direction[0] + at), hn::Load(R(), rays_.direction[1] + at),
+                            hn::Load(R(), rays_.direction[2] + at), distance, R(), along_ + 4 * at);
       for (int axis = 0; axis < 3; ++axis) {
         const VR origin = hn::Load(R(), rays_.origin[axis] + at);
         const VR place = hn::Mul(hn::Sub(origin, rays_of(grid_.low[axis])), rays_of(grid_.cells_per_unit));
@@ -142,69 +146,145 @@ class ExitBatch {
     }
   }
 
-  HWY_INLINE void find_pairs() {
-    pair_count_ = 0;
+  // Asks for the planes of the lists' packets.
+  HWY_INLINE void ask_planes() const {
+    for (std::size_t i = 0; i < list_count_; ++i)
+      for (const std::uint32_t packet : grid_.lists[lists_[i].number].packets) {
+        const auto* line = reinterpret_cast<const char*>(&packets_.planes[existing(packet)]);
+        hwy::Prefetch(line);
+        hwy::Prefetch(line + 64);
+      }
+  }
+
+  [[nodiscard]] HWY_INLINE std::uint32_t existing(std::uint32_t packet) const {
+    return std::min(packet, packets_.nothing());
+  }
+
+  // The packets of the lists that the rays may leave by, and the lists that go on.
+  HWY_INLINE void find_due() {
+    due_count_ = 0;
     std::size_t more_count = 0;
     for (std::size_t i = 0; i < list_count_; ++i) {
       const Pair at = lists_[i];
       const SurfaceCells::List& list = grid_.lists[at.number];
-      for (const std::uint32_t packet : list.packets) {
-        pairs_[pair_count_] = {at.ray, packet};
-        pair_count_ += packet < packets_.nothing();
-        const auto* line =
-            reinterpret_cast<const char*>(&packets_.planes[std::min(packet, packets_.nothing())]);
-        hwy::Prefetch(line);
-        hwy::Prefetch(line + 64);
+      const std::uint32_t packets[4] = {list.packets[0], existing(list.packets[1]),
+                                        existing(list.packets[2]), existing(list.packets[3])};
+      unsigned due[4];
+      find_due(at.ray, packets, due);
+      for (int j = 0; j < 4; ++j) {
+        due_[due_count_] = {at.ray, packets[j]};
+        due_count_ += due[j];
       }
       lists_[more_count] = {at.ray, list.packets[3] & ~SurfaceCells::kMore};
       more_count += list.packets[3] >= SurfaceCells::kMore;
     }
     list_count_ = more_count;
-  }
-
-  [[nodiscard]] HWY_INLINE V3 row(const Row (&rows)[3], std::uint32_t ray) const {
-    return {hn::Set(F(), rows[0][ray]), hn::Set(F(), rows[1][ray]), hn::Set(F(), rows[2][ray])};
-  }
-
-  HWY_INLINE void find_due() {
-    due_count_ = 0;
-    for (std::size_t i = 0; i < pair_count_; ++i) {
-      const Pair pair = pairs_[i];
-      pairs_[due_count_] = pair;
-      due_count_ += may_leave(packets_.planes[pair.number], row(rays_.origin, pair.ray),
-                              row(rays_.direction, pair.ray), limit_[pair.ray]);
-    }
+    due_[due_count_] = due_[due_count_ > 0 ? due_count_ - 1 : 0];  // an even number for meet_due
     for (std::size_t i = 0; i < due_count_; ++i) {
-      const auto* lines = reinterpret_cast<const char*>(&packets_.packets[pairs_[i].number]);
+      const auto* lines = reinterpret_cast<const char*>(&packets_.packets[due_[i].number]);
       for (std::size_t at = 0; at < sizeof(Packet); at += 64) hwy::Prefetch(lines + at);
     }
   }
 
-  [[nodiscard]] HWY_INLINE Exits meet(std::uint32_t ray, std::uint32_t packet, std::size_t at) const {
-    return find_exits_of(packets_.packets[packet], at, row(rays_.origin, ray), row(rays_.direction, ray),
-                         rays_.distance[ray]);
+  [[nodiscard]] HWY_INLINE Flight<VF> flight(std::uint32_t ray, float distance) const {
+    const float* from = from_ + 4 * ray;
+    const float* along = along_ + 4 * ray;
+    return {{hn::Set(F(), from[0]), hn::Set(F(), from[1]), hn::Set(F(), from[2])},
+            {hn::Set(F(), along[0]), hn::Set(F(), along[1]), hn::Set(F(), along[2])},
+            hn::Set(F(), distance)};
+  }
+
+  HWY_INLINE void keep(const Pair& pair, std::uint32_t slot, float t) {
+    // Chosen by bits: the compiler would make it a branch.
+    const std::uint32_t nearer = -static_cast<std::uint32_t>(t < limit_[pair.ray]);
+    const auto choose = [nearer](std::uint32_t yes, std::uint32_t no) {
+      return (yes & nearer) | (no & ~nearer);
+    };
+    limit_[pair.ray] = std::bit_cast<float>(
+        choose(std::bit_cast<std::uint32_t>(t), std::bit_cast<std::uint32_t>(limit_[pair.ray])));
+    best_[pair.ray] = choose(pair.number * kWidth + slot, best_[pair.ray]);
+  }
+
+#if HWY_TARGET <= HWY_AVX3
+  // Two packets fill a vector.
+  using W = hn::CappedTag<float, 2 * kPacket>;
+  using VW = hn::Vec<W>;
+  using V3W = Vec3Of<VW>;
+
+  static HWY_INLINE VW both(const float* low, const float* high) {
+    return hn::Combine(W(), hn::Load(F(), high), hn::Load(F(), low));
+  }
+  static HWY_INLINE V3W both(const float (&low)[3][kPacket], const float (&high)[3][kPacket]) {
+    return {both(low[0], high[0]), both(low[1], high[1]), both(low[2], high[2])};
+  }
+  // The four floats of two rays, each throughout its half.
+  static HWY_INLINE V3W both(const float* rows, std::uint32_t low, std::uint32_t high, VW& fourth) {
+    const VW all = hn::Combine(W(), hn::LoadDup128(F(), rows + 4 * high), hn::LoadDup128(F(), rows + 4 * low));
+    fourth = hn::Broadcast<3>(all);
+    return {hn::Broadcast<0>(all), hn::Broadcast<1>(all), hn::Broadcast<2>(all)};
+  }
+  [[nodiscard]] HWY_INLINE Flight<VW> flight(std::uint32_t low, std::uint32_t high) const {
+    Flight<VW> flight;
+    VW unused;
+    flight.origin = both(from_, low, high, flight.distance);
+    flight.direction = both(along_, low, high, unused);
+    return flight;
+  }
+
+  HWY_INLINE void find_due(std::uint32_t ray, const std::uint32_t (&packets)[4], unsigned (&due)[4]) const {
+    Flight<VW> of_both = flight(ray, ray);
+    of_both.distance = hn::Set(W(), limit_[ray]);
+    for (int j = 0; j < 4; j += 2) {
+      const PacketPlanes& low = packets_.planes[packets[j]];
+      const PacketPlanes& high = packets_.planes[packets[j + 1]];
+      std::uint8_t bits[8];
+      hn::StoreMaskBits(
+          W(), passes(W(), of_both, both(low.normal, high.normal), both(low.offset, high.offset)), bits);
+      due[j] = bits[0] != 0;
+      due[j + 1] = bits[1] != 0;
+    }
+  }
+
+  HWY_INLINE void meet_due() {
+    for (std::size_t i = 0; i < due_count_; i += 2) {
+      const Pair low = due_[i];
+      const Pair high = due_[i + 1];
+      const Flight<VW> of_both = flight(low.ray, high.ray);
+      const auto corner = [&](int k) HWY_ATTR {
+        return both(packets_.packets[low.number].corner[k], packets_.packets[high.number].corner[k]) -
+               of_both.origin;
+      };
+      const Exits<VW> exits = exits_by(W(), of_both, corner(0), corner(1), corner(2));
+      VW least = hn::Min(exits.t, hn::SwapAdjacentBlocks(exits.t));
+      least = hn::Min(least, hn::Shuffle1032(least));
+      least = hn::Min(least, hn::Shuffle2301(least));
+      std::uint8_t bits[8];
+      hn::StoreMaskBits(W(), hn::Eq(exits.t, least), bits);
+      keep(low, static_cast<std::uint32_t>(std::countr_zero(static_cast<unsigned>(bits[0]))),
+           hn::GetLane(least));
+      keep(high, static_cast<std::uint32_t>(std::countr_zero(static_cast<unsigned>(bits[1]))),
+           hn::GetLane(hn::UpperHalf(F(), least)));
+    }
+  }
+#else
+  HWY_INLINE void find_due(std::uint32_t ray, const std::uint32_t (&packets)[4], unsigned (&due)[4]) const {
+    const Flight<VF> all = flight(ray, limit_[ray]);
+    for (int j = 0; j < 4; ++j) due[j] = may_leave(packets_.planes[packets[j]], all);
   }
 
   HWY_INLINE void meet_due() {
     for (std::size_t i = 0; i < due_count_; ++i) {
-      const Pair pair = pairs_[i];
-      for (std::size_t at = 0; at < kPacket; at += hn::Lanes(F())) {
-        const Exits exits = meet(pair.ray, pair.number, at);
-        const VF least = hn::MinOfLanes(F(), exits.t);
-        const float t = hn::GetLane(least);
-        const auto lane = static_cast<std::uint32_t>(hn::FindFirstTrue(F(), hn::Eq(exits.t, least)));
-        // Chosen by bits: the compiler would make it a branch.
-        const std::uint32_t nearer = -static_cast<std::uint32_t>(t < limit_[pair.ray]);
-        const auto choose = [nearer](std::uint32_t yes, std::uint32_t no) {
-          return (yes & nearer) | (no & ~nearer);
-        };
-        limit_[pair.ray] = std::bit_cast<float>(
-            choose(std::bit_cast<std::uint32_t>(t), std::bit_cast<std::uint32_t>(limit_[pair.ray])));
-        best_[pair.ray] =
-            choose(pair.number * kWidth + static_cast<std::uint32_t>(at) + lane, best_[pair.ray]);
+      const Pair pair = due_[i];
+      const Flight<VF> all = flight(pair.ray, rays_.distance[pair.ray]);
+      for (std::uint32_t at = 0; at < kPacket; at += static_cast<std::uint32_t>(hn::Lanes(F()))) {
+        const VF t = exits_by(packets_.packets[pair.number], at, all).t;
+        const VF least = hn::MinOfLanes(F(), t);
+        const auto lane = static_cast<std::uint32_t>(hn::FindFirstTrue(F(), hn::Eq(t, least)));
+        keep(pair, at + lane, hn::GetLane(least));
       }
     }
   }
+#endif
 
   HWY_INLINE void advance() {
     active_count_ = 0;
@@ -244,7 +324,8 @@ class ExitBatch {
       const std::uint32_t packet = best_[i] / kWidth;
       const std::size_t slot = best_[i] % kWidth;
       const std::size_t at = slot / hn::Lanes(F()) * hn::Lanes(F());
-      exits[i] = pick(meet(i, packet, at), packets_.packets[packet], at, slot - at);
+      const Packet& left_by = packets_.packets[packet];
+      exits[i] = pick(exits_by(left_by, at, flight(i, rays_.distance[i])), left_by, at, slot - at);
     }
   }
 
@@ -257,6 +338,8 @@ class ExitBatch {
   Row step_[3];
   Row next_[3];
   Row between_[3];
+  alignas(64) float from_[4 * kRayBatch];   // origins and distances, ray by ray
+  alignas(64) float along_[4 * kRayBatch];  // directions
   Row limit_;  // just beyond what is wanted, or where the nearest exit so far is
   std::uint32_t best_[kRayBatch];   // the triangle there, by packet and slot, or kNone
   std::uint32_t state_[kRayBatch];
@@ -264,10 +347,9 @@ class ExitBatch {
   std::uint32_t bit_[kRayBatch];
   std::uint32_t active_[kRayBatch + kWidest];
   Pair lists_[kRayBatch + 1];
-  Pair pairs_[4 * kRayBatch + 1];
+  Pair due_[4 * kRayBatch + 1];
   std::size_t active_count_ = 0;
   std::size_t list_count_ = 0;
-  std::size_t pair_count_ = 0;
   std::size_t due_count_ = 0;
 };
 
