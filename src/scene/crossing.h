@@ -22,6 +22,15 @@ struct Step {
   Real distance = 0;
 };
 
+/// Steps in rows, in single precision; as much room as there may be.
+struct alignas(64) Steps {
+  static constexpr std::size_t kMost = 128;
+  using Row = float[kMost + 16];  // a vector may be stored at the last one
+  Row from[3];
+  Row direction[3];
+  Row distance;
+};
+
 /// The outcome of one step in the body's own coordinates. `normal` (geometric) and `shading_normal` are unit,
 /// outward, and set only at an exit.
 struct Crossing {

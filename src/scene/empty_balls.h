@@ -40,6 +40,8 @@ struct EmptyBall {
 /// leaves the body, whether the ball holds that point or not. A followed one has the cell's facing ball, a
 /// smaller one, behind it in the list.
 struct EmptyBalls {
+  static constexpr float kWithin = 1 - 0x1p-10f;  // of the way to a ball's far side that counts as inside
+
   glm::vec3 low{0};
   float cells_per_unit = 1;
   glm::ivec3 size{1};
@@ -68,7 +70,6 @@ struct EmptyBalls {
   [[nodiscard]] float clear_length(EmptyBall ball, const glm::vec3& p, const glm::vec3& d,
                                    float distance) const noexcept {
     constexpr int kBalls = 4;
-    constexpr float kWithin = 1 - 0x1p-10f;  // of the way to a ball's far side
     float clear = 0;
     for (int i = 0; i < kBalls; ++i) {
       const glm::vec3 place = p + clear * d;

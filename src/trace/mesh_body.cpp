@@ -172,28 +172,29 @@ MeshBody::Begun MeshBody::restore(Begun begun, Real distance) const noexcept {
   return begun;
 }
 
-void MeshBody::begin_crossings(std::span<const Step> steps, std::span<Begun> begun) const noexcept {
-  ShortRays rays;
+void MeshBody::begin_crossings(const Steps& steps, std::span<Begun> begun) const noexcept {
+  static_assert(kRayBatch >= Steps::kMost);
+  ShortRays rays{};  // vectors read beyond the last one
   ShortExit exits[kRayBatch];
-  for (std::size_t first = 0; first < steps.size(); first += kRayBatch) {
-    const std::size_t count = std::min(steps.size() - first, kRayBatch);
+  const std::size_t count = begun.size();
+  const auto scale = static_cast<float>(inverse_scale_);
+  constexpr auto kBehind = static_cast<float>(kMargin);
+  for (int axis = 0; axis < 3; ++axis)
     for (std::size_t i = 0; i < count; ++i) {
-      const ShortRay ray = short_ray(scaled(steps[first + i]));
-      for (int axis = 0; axis < 3; ++axis) {
-        rays.origin[axis][i] = ray.origin[axis];
-        rays.direction[axis][i] = ray.direction[axis];
-      }
-      rays.distance[i] = ray.distance;
+      rays.direction[axis][i] = steps.direction[axis][i];
+      rays.origin[axis][i] = steps.from[axis][i] * scale - kBehind * steps.direction[axis][i];
     }
-    find_exits(packets_, cells_, rays, std::span(exits).first(count));
-    for (std::size_t i = 0; i < count; ++i) {
-      const Step& step = steps[first + i];
-      Begun& result = begun[first + i] = restore(cross(scaled(step), exits[i]), step.distance);
-      if (result.triangle == Begun::kNoTriangle || normals_.empty()) continue;
-      const auto* normals = reinterpret_cast<const char*>(&normals_[result.triangle]);
-      hwy::Prefetch(normals);
-      hwy::Prefetch(normals + sizeof(normals_[0]) - 1);
-    }
+  for (std::size_t i = 0; i < count; ++i) rays.distance[i] = steps.distance[i] * scale + 2 * kBehind;
+  find_exits(packets_, cells_, rays, std::span(exits).first(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Step step{{steps.from[0][i], steps.from[1][i], steps.from[2][i]},
+                    {steps.direction[0][i], steps.direction[1][i], steps.direction[2][i]},
+                    steps.distance[i]};
+    begun[i] = restore(cross(scaled(step), exits[i]), step.distance);
+    if (begun[i].triangle == Begun::kNoTriangle || normals_.empty()) continue;
+    const auto* normals = reinterpret_cast<const char*>(&normals_[begun[i].triangle]);
+    hwy::Prefetch(normals);
+    hwy::Prefetch(normals + sizeof(normals_[0]) - 1);
   }
 }
 

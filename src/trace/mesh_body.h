@@ -67,7 +67,7 @@ class MeshBody {
 
   /// first_crossing in two parts, for who has several steps under way: the first of all of them, in as many
   /// `begun`, then the second of each.
-  void begin_crossings(std::span<const Step> steps, std::span<Begun> begun) const noexcept;
+  void begin_crossings(const Steps& steps, std::span<Begun> begun) const noexcept;
   [[nodiscard]] Crossing finish_crossing(const Begun& begun) const noexcept;
 
   /// The first surface within `distance` along a ray, from either side.

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <utility>
 
 #include "walk/lanes.h"
 #include "walk/random_walk.h"
@@ -13,36 +12,10 @@
 #include <hwy/highway.h>
 
 #include "math/vector_math-inl.h"
+#include "walk/lane_regions-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace meander::HWY_NAMESPACE {
-
-using F = hn::ScalableTag<float>;
-using U = hn::ScalableTag<std::uint32_t>;
-using VF = hn::Vec<F>;
-using VU = hn::Vec<U>;
-using MF = hn::Mask<F>;
-
-struct V3 {
-  VF x, y, z;
-};
-
-HWY_INLINE VF set(float value) { return hn::Set(F(), value); }
-HWY_INLINE VF dot(const V3& a, const V3& b) {
-  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
-}
-HWY_INLINE V3 load(const Lanes::Row (&rows)[3], int at) {
-  return {hn::Load(F(), rows[0] + at), hn::Load(F(), rows[1] + at), hn::Load(F(), rows[2] + at)};
-}
-HWY_INLINE void store(const V3& v, Lanes::Row (&rows)[3], int at) {
-  hn::Store(v.x, F(), rows[0] + at);
-  hn::Store(v.y, F(), rows[1] + at);
-  hn::Store(v.z, F(), rows[2] + at);
-}
-HWY_INLINE V3 choose(MF mask, const V3& yes, const V3& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-          hn::IfThenElse(mask, yes.z, no.z)};
-}
 
 // xoshiro128++ as in math/random.h, one state a lane.
 struct Generators {
@@ -75,146 +48,6 @@ struct Generators {
   }
 };
 
-constexpr std::uint32_t kAgain = 2;  // in Lanes::scatters: the step that has been drawn is due
-
-// Which steps from p to q cross nothing, see SafeRegion; a ball that is found to hold both becomes the
-// lane's.
-template <SafeRegion::Kind kKind>
-class Region;
-
-template <>
-class Region<SafeRegion::Kind::box> {
- public:
-  explicit HWY_INLINE Region(const SafeRegion& region) : region_(region) {}
-
-  HWY_INLINE MF holds(MF running, const V3&, const V3& q, Lanes&, int) const {
-    MF inside = running;
-    for (int i = 0; i < 3; ++i) {
-      const VF local = dot({set(region_.map[i][0]), set(region_.map[i][1]), set(region_.map[i][2])}, q);
-      inside =
-          hn::And(inside, hn::And(hn::Ge(local, set(region_.low[i])), hn::Le(local, set(region_.high[i]))));
-    }
-    return inside;
-  }
-  HWY_INLINE void settle(Lanes&) const {}
-
- private:
-  const SafeRegion& region_;
-};
-
-template <>
-class Region<SafeRegion::Kind::ellipsoid> {
- public:
-  explicit HWY_INLINE Region(const SafeRegion& region) : region_(region) {}
-
-  HWY_INLINE MF holds(MF running, const V3&, const V3& q, Lanes&, int) const {
-    VF sum = set(0);
-    for (int i = 0; i < 3; ++i) {
-      const VF local = dot({set(region_.map[i][0]), set(region_.map[i][1]), set(region_.map[i][2])}, q);
-      sum = hn::MulAdd(local, local, sum);
-    }
-    return hn::And(running, hn::Le(sum, set(1)));
-  }
-  HWY_INLINE void settle(Lanes&) const {}
-
- private:
-  const SafeRegion& region_;
-};
-
-template <>
-class Region<SafeRegion::Kind::balls> {
- public:
-  explicit HWY_INLINE Region(const SafeRegion& region) : region_(region) {}
-
-  static HWY_INLINE MF in_ball(const V3& p, const V3& center, VF radius2) {
-    const V3 d{hn::Sub(p.x, center.x), hn::Sub(p.y, center.y), hn::Sub(p.z, center.z)};
-    return hn::Le(dot(d, d), radius2);
-  }
-
-  HWY_INLINE MF holds(MF running, const V3& p, const V3& q, Lanes& lanes, int at) {
-    const MF held =
-        hn::And(running, in_ball(q, load(lanes.ball_center, at), hn::Load(F(), lanes.ball_radius2 + at)));
-    const MF lost = hn::AndNot(held, running);
-    const VU lane = hn::Iota(U(), static_cast<std::uint32_t>(at));
-    hn::StoreU(hn::Compress(lane, hn::RebindMask(U(), lost)), U(), lost_.lane + lost_.count);
-    keep(p, lost, lost_.from);
-    keep(q, lost, lost_.to);
-    lost_.count += static_cast<int>(hn::CountTrue(F(), lost));
-    return held;
-  }
-
-  // Looks for the balls of the cells in which the steps end that left their lanes' balls. Few do: they are
-  // gathered from all vectors. The lanes whose steps are in them take those steps again.
-  HWY_INLINE void settle(Lanes& lanes) {
-    const int count = std::exchange(lost_.count, 0);
-    for (int at = 0; at < count; at += static_cast<int>(hn::Lanes(F()))) {
-      const MF real = hn::FirstN(F(), static_cast<std::size_t>(count - at));
-      look_up(real, at, lanes);
-    }
-  }
-
- private:
-  // The steps of a sweep that left their lanes' balls.
-  struct Lost {
-    static constexpr int kRoom = kLanes + 16;
-    alignas(64) float from[3][kRoom];
-    alignas(64) float to[3][kRoom];
-    alignas(64) std::uint32_t lane[kRoom];
-    int count = 0;
-  };
-
-  HWY_INLINE void keep(const V3& v, MF lost, float (&rows)[3][Lost::kRoom]) {
-    hn::StoreU(hn::Compress(v.x, lost), F(), rows[0] + lost_.count);
-    hn::StoreU(hn::Compress(v.y, lost), F(), rows[1] + lost_.count);
-    hn::StoreU(hn::Compress(v.z, lost), F(), rows[2] + lost_.count);
-  }
-  static HWY_INLINE V3 load_lost(const float (&rows)[3][Lost::kRoom], int at) {
-    return {hn::Load(F(), rows[0] + at), hn::Load(F(), rows[1] + at), hn::Load(F(), rows[2] + at)};
-  }
-
-  HWY_INLINE void look_up(MF real, int at, Lanes& lanes) {
-    const EmptyBalls& field = *region_.balls;
-    const hn::RebindToSigned<F> di;
-    const auto cell = [&](VF coordinate, int axis) {
-      const VF place = hn::Mul(hn::Sub(coordinate, set(field.low[axis])), set(field.cells_per_unit));
-      const VF last = set(static_cast<float>(field.size[axis] - 1));
-      return hn::ConvertTo(di, hn::Min(hn::Max(hn::Floor(place), set(0)), last));
-    };
-    const V3 p = load_lost(lost_.from, at);
-    const V3 q = load_lost(lost_.to, at);
-    auto index = hn::Mul(cell(q.z, 2), hn::Set(di, field.size.y));
-    index = hn::Mul(hn::Add(index, cell(q.y, 1)), hn::Set(di, field.size.x));
-    index = hn::Add(index, cell(q.x, 0));
-    index = hn::IfThenElseZero(hn::RebindMask(di, real), index);
-    const auto ball = hn::ShiftLeft<2>(
-        hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(field.cells.data()), index));
-    const float* balls = &field.balls[0].center.x;
-    const V3 center{hn::GatherIndex(F(), balls, ball), hn::GatherIndex(F(), balls + 1, ball),
-                    hn::GatherIndex(F(), balls + 2, ball)};
-    const VF radius2 = hn::GatherIndex(F(), balls + 3, ball);
-    const MF found = hn::And(real, hn::And(in_ball(p, center, radius2), in_ball(q, center, radius2)));
-    if (hn::AllFalse(F(), found)) return;
-    alignas(64) float rows[4][hn::MaxLanes(F())];
-    alignas(64) std::uint32_t lane[hn::MaxLanes(F())];
-    hn::Store(center.x, F(), rows[0]);
-    hn::Store(center.y, F(), rows[1]);
-    hn::Store(center.z, F(), rows[2]);
-    hn::Store(radius2, F(), rows[3]);
-    hn::Store(hn::IfThenElse(hn::RebindMask(U(), found), hn::Load(U(), lost_.lane + at), hn::Set(U(), kLanes)),
-              U(), lane);
-    for (std::size_t i = 0; i < hn::Lanes(F()); ++i) {
-      if (lane[i] == kLanes) continue;
-      for (int axis = 0; axis < 3; ++axis) lanes.ball_center[axis][lane[i]] = rows[axis][i];
-      lanes.ball_radius2[lane[i]] = rows[3][i];
-      lanes.scatters[lane[i]] = kAgain;
-      lanes.state[lane[i]] = static_cast<std::uint32_t>(LaneState::running);
-    }
-  }
-
-  const SafeRegion& region_;
-  Lost lost_;
-};
-
 template <SafeRegion::Kind kKind, bool kChromatic, bool kAnisotropic>
 class Kernel {
  public:
@@ -243,8 +76,14 @@ class Kernel {
     Generators random{hn::Load(U(), lanes_.random[0] + at), hn::Load(U(), lanes_.random[1] + at),
                       hn::Load(U(), lanes_.random[2] + at), hn::Load(U(), lanes_.random[3] + at)};
     const V3 p = load(lanes_.position, at);
-    const MF fresh = hn::AndNot(takes_again(at), running);
-    const V3 d = scatter(at, running, random);
+    const VU due = hn::Load(U(), lanes_.due + at);
+    const auto is_due = [&](LaneDue what) HWY_ATTR {
+      return hn::And(running, hn::RebindMask(F(), hn::Eq(due, of(what))));
+    };
+    const MF landed = is_due(LaneDue::collision);
+    const MF flies = hn::AndNot(landed, running);
+    const MF fresh = hn::AndNot(is_due(LaneDue::same_flight), flies);
+    const V3 d = scatter(at, is_due(LaneDue::scattering), random);
     store(d, lanes_.direction, at);
 
     const VF sigma = hn::Load(F(), lanes_.sigma + at);
@@ -252,9 +91,11 @@ class Kernel {
     const VF drawn = hn::Div(hn::Neg(log_lanes(F(), hn::Sub(set(1), xi))), sigma);
     const VF distance = hn::IfThenElse(fresh, drawn, hn::Load(F(), lanes_.distance + at));
     hn::Store(distance, F(), lanes_.distance + at);
-    const V3 q{hn::MulAdd(distance, d.x, p.x), hn::MulAdd(distance, d.y, p.y),
-               hn::MulAdd(distance, d.z, p.z)};
-    const MF safe = region_.holds(running, p, q, lanes_, at);
+    const V3 there{hn::MulAdd(distance, d.x, p.x), hn::MulAdd(distance, d.y, p.y),
+                   hn::MulAdd(distance, d.z, p.z)};
+    const V3 q = choose(landed, p, there);
+    const MF safe = hn::Or(landed, region_.holds(flies, p, q, lanes_, at));
+    hn::Store(hn::IfThenElseZero(hn::Not(hn::RebindMask(U(), running)), due), U(), lanes_.due + at);
     store(choose(safe, q, p), lanes_.position, at);
     const VU one = hn::Set(U(), 1);
     const auto add = [&](std::uint32_t* row, MF mask) {
@@ -275,17 +116,11 @@ class Kernel {
     hn::Store(random.s3, U(), lanes_.random[3] + at);
   }
 
-  // Whether lanes take a step again that they have drawn already.
-  HWY_INLINE MF takes_again(int at) const {
-    return hn::RebindMask(F(), hn::Eq(hn::Load(U(), lanes_.scatters + at), hn::Set(U(), kAgain)));
-  }
+  static HWY_INLINE VU of(LaneDue due) { return hn::Set(U(), static_cast<std::uint32_t>(due)); }
 
   // A new direction for the lanes that one is due for.
-  HWY_INLINE V3 scatter(int at, MF running, Generators& random) {
+  HWY_INLINE V3 scatter(int at, MF due, Generators& random) {
     const V3 d = load(lanes_.direction, at);
-    const VU scatters = hn::Load(U(), lanes_.scatters + at);
-    const MF due = hn::And(running, hn::RebindMask(F(), hn::Eq(scatters, hn::Set(U(), 1))));
-    hn::Store(hn::IfThenElseZero(hn::Not(hn::RebindMask(U(), running)), scatters), U(), lanes_.scatters + at);
     if (hn::AllFalse(F(), due)) return d;
     const VF u1 = random.next(due);
     const VF u2 = random.next(due);
@@ -351,7 +186,8 @@ class Kernel {
     hn::Store(hn::Add(length, hn::IfThenElseZero(safe, distance)), F(), lanes_.length + at);
     const auto m = hn::RebindMask(U(), safe);
     const VU one = hn::IfThenElseZero(m, hn::Set(U(), 1));
-    hn::Store(hn::IfThenElse(m, one, hn::Load(U(), lanes_.scatters + at)), U(), lanes_.scatters + at);
+    hn::Store(hn::IfThenElse(m, of(LaneDue::scattering), hn::Load(U(), lanes_.due + at)), U(),
+              lanes_.due + at);
     if constexpr (kChromatic) weigh_free_path(at, safe, distance);
     tally(at, safe, distance);
 
