@@ -55,10 +55,10 @@ struct Crossings {
   }
 };
 
-// How far along its step each of some crossings is clear, see EmptyBalls::clear_length, where the step is
-// longer than a cell; else 0.
+// How far along its step each of some crossings is clear: through its lane's ball, then from ball to ball.
 HWY_INLINE VF clear_length(const EmptyBalls& field, const Crossings& crossings, int at) {
   constexpr int kBalls = 4;
+  constexpr float kWithin = 1 - 0x1p-10f;  // of the way to a ball's far side
   const V3 p = load_rows(crossings.from, at);
   const V3 d = load_rows(crossings.direction, at);
   const VF distance = hn::Load(F(), crossings.distance + at);
@@ -75,7 +75,7 @@ HWY_INLINE VF clear_length(const EmptyBalls& field, const Crossings& crossings, 
     const VF square = hn::Sub(hn::MulAdd(near, near, balls.radius2), dot(to, to));
     open = hn::And(open, hn::Gt(square, set(0)));
     if (i > 0) open = hn::And(open, balls.hold(place));
-    const VF further = hn::Mul(hn::Add(near, hn::Sqrt(hn::Max(square, set(0)))), set(EmptyBalls::kWithin));
+    const VF further = hn::Mul(hn::Add(near, hn::Sqrt(hn::Max(square, set(0)))), set(kWithin));
     open = hn::And(open, hn::Gt(further, set(0)));
     clear = hn::IfThenElse(open, hn::Min(hn::Add(clear, further), distance), clear);
     open = hn::And(open, hn::Lt(clear, distance));

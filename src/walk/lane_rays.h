@@ -9,8 +9,8 @@
 namespace meander {
 
 /// The lanes that rest, in `lane`. Of those whose steps may cross, by lane: `clear` is how far along the step
-/// balls tell that nothing is crossed, and `ray`, where that is not all of it, which of the rays tells about
-/// the rest. Room for a vector beyond the last lane.
+/// balls tell that nothing is crossed (0 where the step is shorter than a cell), and `ray`, where that is not
+/// all of it, which of the rays tells about the rest. Room for a vector beyond the last lane.
 struct RestingLanes {
   alignas(64) std::uint32_t lane[kLanes + 16];
   int count = 0;
@@ -24,7 +24,8 @@ struct RestingLanes {
 void find_resting(InstructionSet set, const LaneModel& model, const Lanes& lanes,
                   RestingLanes& resting) noexcept;
 
-/// Gives some lanes balls for their positions, see EmptyBalls::from.
+/// Gives some lanes, whose walks are inside of the body, balls into which no step from there leaves it; none
+/// (a negative squared radius) where none is known.
 void give_balls(InstructionSet set, const EmptyBalls& field, Lanes& lanes,
                 std::span<const std::uint32_t> to) noexcept;
 
