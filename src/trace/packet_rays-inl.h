@@ -52,8 +52,8 @@ template <class D, class V>
 [[nodiscard]] HWY_INLINE bool may_leave(const PacketPlanes& planes, const Flight<VF>& flight) {
   bool may = false;
   for (std::size_t at = 0; at < kPacket; at += hn::Lanes(F()))
-    may |= !hn::AllFalse(
-        F(), passes(F(), flight, load(planes.normal, at), hn::Load(F(), planes.offset + at)));
+    may |=
+        !hn::AllFalse(F(), passes(F(), flight, load(planes.normal, at), hn::Load(F(), planes.offset + at)));
   return may;
 }
 
@@ -161,8 +161,8 @@ HWY_INLINE bool in_grid(const SurfaceCells& grid, const glm::ivec3& cell) {
 }
 
 HWY_INLINE std::size_t brick_of(const SurfaceCells& grid, const glm::ivec3& cell) {
-  return static_cast<std::size_t>(
-      ((cell.z >> 2) * grid.bricks_size.y + (cell.y >> 2)) * grid.bricks_size.x + (cell.x >> 2));
+  return static_cast<std::size_t>(((cell.z >> 2) * grid.bricks_size.y + (cell.y >> 2)) * grid.bricks_size.x +
+                                  (cell.x >> 2));
 }
 
 HWY_INLINE const SurfaceCells::List* list_of(const SurfaceCells& grid, const glm::ivec3& cell) {

@@ -76,11 +76,10 @@ class ExitBatch {
         const VR origin = hn::Load(R(), rays_.origin[axis] + at);
         const VR place = hn::Mul(hn::Sub(origin, rays_of(grid_.low[axis])), rays_of(grid_.cells_per_unit));
         const VR floor = hn::Floor(place);
-        const VR d =
-            hn::Mul(hn::Load(R(), rays_.direction[axis] + at), rays_of(grid_.cells_per_unit));
+        const VR d = hn::Mul(hn::Load(R(), rays_.direction[axis] + at), rays_of(grid_.cells_per_unit));
         const MR forward = hn::Gt(d, hn::Zero(R()));
-        const VR way = hn::IfThenElse(forward, hn::Sub(hn::Add(floor, rays_of(1)), place),
-                                      hn::Sub(place, floor));
+        const VR way =
+            hn::IfThenElse(forward, hn::Sub(hn::Add(floor, rays_of(1)), place), hn::Sub(place, floor));
         const MR moves = hn::Gt(hn::Abs(d), rays_of(1e-12f));
         const VR inverse = hn::Div(rays_of(1), hn::Abs(d));
         hn::Store(floor, R(), cell_[axis] + at);
@@ -167,8 +166,8 @@ class ExitBatch {
     for (std::size_t i = 0; i < list_count_; ++i) {
       const Pair at = lists_[i];
       const SurfaceCells::List& list = grid_.lists[at.number];
-      const std::uint32_t packets[4] = {list.packets[0], existing(list.packets[1]),
-                                        existing(list.packets[2]), existing(list.packets[3])};
+      const std::uint32_t packets[4] = {list.packets[0], existing(list.packets[1]), existing(list.packets[2]),
+                                        existing(list.packets[3])};
       unsigned due[4];
       find_due(at.ray, packets, due);
       for (int j = 0; j < 4; ++j) {
@@ -219,7 +218,8 @@ class ExitBatch {
   }
   // The four floats of two rays, each throughout its half.
   static HWY_INLINE V3W both(const float* rows, std::uint32_t low, std::uint32_t high, VW& fourth) {
-    const VW all = hn::Combine(W(), hn::LoadDup128(F(), rows + 4 * high), hn::LoadDup128(F(), rows + 4 * low));
+    const VW all =
+        hn::Combine(W(), hn::LoadDup128(F(), rows + 4 * high), hn::LoadDup128(F(), rows + 4 * low));
     fourth = hn::Broadcast<3>(all);
     return {hn::Broadcast<0>(all), hn::Broadcast<1>(all), hn::Broadcast<2>(all)};
   }
@@ -340,8 +340,8 @@ class ExitBatch {
   Row between_[3];
   alignas(64) float from_[4 * kRayBatch];   // origins and distances, ray by ray
   alignas(64) float along_[4 * kRayBatch];  // directions
-  Row limit_;  // just beyond what is wanted, or where the nearest exit so far is
-  std::uint32_t best_[kRayBatch];   // the triangle there, by packet and slot, or kNone
+  Row limit_;                               // just beyond what is wanted, or where the nearest exit so far is
+  std::uint32_t best_[kRayBatch];           // the triangle there, by packet and slot, or kNone
   std::uint32_t state_[kRayBatch];
   std::uint32_t brick_[kRayBatch];
   std::uint32_t bit_[kRayBatch];

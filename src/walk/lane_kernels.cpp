@@ -77,9 +77,8 @@ class Kernel {
                       hn::Load(U(), lanes_.random[2] + at), hn::Load(U(), lanes_.random[3] + at)};
     const V3 p = load(lanes_.position, at);
     const VU due = hn::Load(U(), lanes_.due + at);
-    const auto is_due = [&](LaneDue what) HWY_ATTR {
-      return hn::And(running, hn::RebindMask(F(), hn::Eq(due, of(what))));
-    };
+    const auto is_due = [&](LaneDue what)
+                            HWY_ATTR { return hn::And(running, hn::RebindMask(F(), hn::Eq(due, of(what)))); };
     const MF landed = is_due(LaneDue::collision);
     const MF flies = hn::AndNot(landed, running);
     const MF fresh = hn::AndNot(is_due(LaneDue::same_flight), flies);

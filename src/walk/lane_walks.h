@@ -116,7 +116,8 @@ class LaneWalks {
 
   void begin_rays() noexcept {
     counters_.rays += static_cast<std::uint64_t>(resting_.ray_count);
-    world_.begin_crossings(resting_.rays, std::span(begun_).first(static_cast<std::size_t>(resting_.ray_count)));
+    world_.begin_crossings(resting_.rays,
+                           std::span(begun_).first(static_cast<std::size_t>(resting_.ray_count)));
   }
 
   // Of a lane's step. Where the hero channel does not collide, the kernel divides 0 by 0 once in 2^24 steps.
