@@ -42,8 +42,8 @@ class LaneWalks {
       : set_(set), world_(world), model_(model), client_(client) {}
 
   /// Runs until the client has no walk left; false when it said stop, which is asked whenever rays are
-  /// traced, and every kStopInterval steps at least.
-  [[nodiscard]] bool run() noexcept {
+  /// traced, and every kStopInterval steps at least. Errors: whatever the client throws.
+  [[nodiscard]] bool run() {
     for (int lane = 0; lane < kLanes; ++lane) {
       lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);
       Walker walker;
@@ -190,7 +190,7 @@ class LaneWalks {
     }
   }
 
-  void see_to(int lane) noexcept {
+  void see_to(int lane) {
     const auto state = static_cast<LaneState>(lanes_.state[lane]);
     if constexpr (kTallies) {
       client_.tally(lane, Real(lanes_.path[lane]), Real(lanes_.absorbed[lane]));
@@ -205,7 +205,7 @@ class LaneWalks {
   }
 
   // Ends a step that needed a ray; true when it ended in a collision that the walk survived.
-  [[nodiscard]] bool cross(int lane, Walker& walker, Random& random) noexcept {
+  [[nodiscard]] bool cross(int lane, Walker& walker, Random& random) {
     const Crossing crossing = finish_ray(lane, walker);
     if constexpr (kTallies) {
       const Real carried = walker.weight.carried().x;
@@ -232,7 +232,7 @@ class LaneWalks {
     return true;
   }
 
-  void end(int lane, const WalkResult& result, Walker& walker, Random& random) noexcept {
+  void end(int lane, const WalkResult& result, Walker& walker, Random& random) {
     if (client_.end(lane, result, walker, random)) {
       put(lane, walker, random, false);
       return;

@@ -45,7 +45,7 @@ class PathBatch {
         source_(source),
         waiting_(scene.objects.size()) {}
 
-  /// False when it was interrupted.
+  /// False when it was interrupted. Errors: std::bad_alloc, and whatever the source throws.
   [[nodiscard]] bool run(InstructionSet set) {
     for (;;) {
       const auto longest = std::ranges::max_element(waiting_, {}, &std::vector<Slot*>::size);
