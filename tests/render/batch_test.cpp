@@ -68,12 +68,13 @@ struct FailingSource {
   const CameraRays& camera;
   const Geometry& geometry;
   int left = 3000;
-  [[nodiscard]] bool next(BatchSample& sample) {
+  BatchSample sample = {};
+  [[nodiscard]] const BatchSample* next() {
     if (left == 0) throw std::bad_alloc();
     sample.random = stream(1, 0, static_cast<std::uint32_t>(left--));
     sample.start.ray = camera.at(sample.random.next(), sample.random.next());
     sample.start.hit = geometry.closest_hit(sample.start.ray);
-    return true;
+    return &sample;
   }
   static void done(std::size_t, const RadianceSink&) {}
 };
