@@ -41,8 +41,8 @@ class LaneWalks {
       : set_(set), world_(world), model_(model), client_(client) {}
 
   /// Runs until the client has no walk left; false when it said stop, which is asked whenever rays are
-  /// traced, and every kStopInterval steps at least.
-  [[nodiscard]] bool run() noexcept {
+  /// traced, and every kStopInterval steps at least. Errors: whatever the client throws.
+  [[nodiscard]] bool run() {
     for (int lane = 0; lane < kLanes; ++lane) {
       lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);
       Walker walker;
@@ -54,7 +54,10 @@ class LaneWalks {
       if (client_.stop()) return false;
       advance_lanes(set_, model_, lanes_, kLanes, kLanes - in_use_ + std::min(kRestingLanes, in_use_));
       find_resting(set_, model_, lanes_, resting_);
-      if constexpr (kTogether) begin_rays();
+      if constexpr (kTogether)
+        begin_rays();
+      else
+        cross_together();
       for (int i = 0; i < resting_.count; ++i) see_to(static_cast<int>(resting_.lane[i]));
       give_balls();
     }
@@ -120,6 +123,17 @@ class LaneWalks {
                            std::span(begun_).first(static_cast<std::size_t>(resting_.ray_count)));
   }
 
+  // Steps that leave an exact body, one after another, so that the roots and divisions of one do not wait for
+  // those of another.
+  void cross_together() noexcept {
+    for (int i = 0; i < resting_.count; ++i) {
+      const auto lane = static_cast<int>(resting_.lane[i]);
+      if (lanes_.state[lane] != static_cast<std::uint32_t>(LaneState::crossing)) continue;
+      begun_[lane] = world_.first_crossing(position(lane), direction(lane), distance_of(lane));
+      ++counters_.rays;
+    }
+  }
+
   // Of a lane's step. Where the hero channel does not collide, the kernel divides 0 by 0 once in 2^24 steps.
   [[nodiscard]] Real distance_of(int lane) const noexcept {
     const Real distance(lanes_.distance[lane]);
@@ -136,12 +150,11 @@ class LaneWalks {
       crossing.distance += clear;
       return crossing;
     } else {
-      ++counters_.rays;
-      return world_.first_crossing(position(lane), direction(lane), distance);
+      return begun_[lane];
     }
   }
 
-  void see_to(int lane) noexcept {
+  void see_to(int lane) {
     const auto state = static_cast<LaneState>(lanes_.state[lane]);
     WalkResult result{WalkEnd::absorbed, {}};
     if (state == LaneState::crossing) {
@@ -168,7 +181,7 @@ class LaneWalks {
   }
 
   // Ends a walk that has crossed the surface, or leaked.
-  void leave(int lane, WalkResult& result, Walker& walker) noexcept {
+  void leave(int lane, WalkResult& result, Walker& walker) {
     const Crossing& crossing = result.crossing;
     const bool exits = crossing.kind == CrossingKind::exit;
     if constexpr (kTallies)
@@ -178,7 +191,7 @@ class LaneWalks {
     result.end = exits ? WalkEnd::exited : WalkEnd::leaked;
   }
 
-  void end(int lane, const WalkResult& result, Walker& walker, Random& random) noexcept {
+  void end(int lane, const WalkResult& result, Walker& walker, Random& random) {
     if (client_.end(lane, result, walker, random)) {
       put(lane, walker, random, LaneDue::flight);
       return;
@@ -198,9 +211,9 @@ class LaneWalks {
     if constexpr (kTogether)
       return typename W::Begun{};
     else
-      return char{};
+      return Crossing{};
   }
-  decltype(begun_kind()) begun_[kTogether ? kLanes : 1];
+  decltype(begun_kind()) begun_[kLanes];  // by ray, or by lane where each is found alone
   RestingLanes resting_;
   std::uint32_t fresh_[kLanes + 16] = {};  // lanes that have been put and have no ball yet
   int fresh_count_ = 0;

@@ -60,9 +60,9 @@ mutant lane_exit_not_weighed chromatic_slab_lanes walk/lane_walks.h \
 mutant lane_history_twice chromatic_slab_lanes walk/lane_walks.h \
   'if (walker.weight.order == put.order) {' 'if (true) {'
 mutant lane_short_ray_skipped slab_forward_lanes walk/lane_walks.h \
-  'return world_.first_crossing(position(lane), direction(lane), distance);' \
+  'return begun_[lane];' \
   'if (distance < Real(0.5)) return {CrossingKind::none, distance, position(lane) + distance * direction(lane)};
-      return world_.first_crossing(position(lane), direction(lane), distance);'
+      return begun_[lane];'
 
 # Meshes: empty balls and short rays.
 mutant ray_behind_a_ball_skipped mean_path_knot_lanes walk/lane_walks.h \
