@@ -56,15 +56,15 @@ class Kernel {
 
   HWY_INLINE void run(int count, int enough) {
     const int width = static_cast<int>(hn::Lanes(F()));
-    const auto rest = static_cast<std::uint32_t>(LaneState::running);
     for (std::uint64_t step_of_all = 0; step_of_all < kStopInterval; ++step_of_all) {
       int running = 0;
       for (int at = 0; at < count; at += width) {
-        const VU state = hn::Load(U(), lanes_.state + at);
-        const auto mask = hn::Eq(state, hn::Set(U(), rest));
-        if (hn::AllFalse(U(), mask)) continue;
-        running += static_cast<int>(hn::CountTrue(U(), mask));
-        step(at, hn::RebindMask(F(), mask));
+        if (const MF landed = running_lanes(at, LaneDue::collision); !hn::AllFalse(F(), landed))
+          collide_landed(at, landed);
+        const MF mask = hn::RebindMask(F(), hn::Eq(hn::Load(U(), lanes_.state + at), of(LaneState::running)));
+        if (hn::AllFalse(F(), mask)) continue;
+        running += static_cast<int>(hn::CountTrue(F(), mask));
+        step(at, mask);
       }
       region_.settle(lanes_);
       if (running == 0 || running <= count - enough) return;
@@ -72,54 +72,68 @@ class Kernel {
   }
 
  private:
-  HWY_INLINE void step(int at, MF running) {
-    Generators random{hn::Load(U(), lanes_.random[0] + at), hn::Load(U(), lanes_.random[1] + at),
-                      hn::Load(U(), lanes_.random[2] + at), hn::Load(U(), lanes_.random[3] + at)};
-    const V3 p = load(lanes_.position, at);
-    const VU due = hn::Load(U(), lanes_.due + at);
-    const auto is_due = [&](LaneDue what)
-                            HWY_ATTR { return hn::And(running, hn::RebindMask(F(), hn::Eq(due, of(what)))); };
-    const MF landed = is_due(LaneDue::collision);
-    const MF flies = hn::AndNot(landed, running);
-    const MF fresh = hn::AndNot(is_due(LaneDue::same_flight), flies);
-    const V3 d = scatter(at, is_due(LaneDue::scattering), random);
-    store(d, lanes_.direction, at);
-
-    const VF sigma = hn::Load(F(), lanes_.sigma + at);
-    const VF xi = random.next(fresh);
-    const VF drawn = hn::Div(hn::Neg(log_lanes(F(), hn::Sub(set(1), xi))), sigma);
-    const VF distance = hn::IfThenElse(fresh, drawn, hn::Load(F(), lanes_.distance + at));
-    hn::Store(distance, F(), lanes_.distance + at);
-    const V3 there{hn::MulAdd(distance, d.x, p.x), hn::MulAdd(distance, d.y, p.y),
-                   hn::MulAdd(distance, d.z, p.z)};
-    const V3 q = choose(landed, p, there);
-    const MF safe = hn::Or(landed, region_.holds(flies, p, q, lanes_, at));
-    hn::Store(hn::IfThenElseZero(hn::Not(hn::RebindMask(U(), running)), due), U(), lanes_.due + at);
-    store(choose(safe, q, p), lanes_.position, at);
-    const VU one = hn::Set(U(), 1);
-    const auto add = [&](std::uint32_t* row, MF mask) {
-      const VU old = hn::Load(U(), row + at);
-      hn::Store(hn::Add(old, hn::IfThenElseZero(hn::RebindMask(U(), mask), one)), U(), row + at);
-    };
-    add(lanes_.steps, fresh);
-    collide(at, safe, distance, random);
-    // What was not safe waits for its ray; what roulette ended is marked already.
-    VU state = hn::Load(U(), lanes_.state + at);
-    const MF waits = hn::AndNot(safe, running);
-    state = hn::IfThenElse(hn::RebindMask(U(), waits),
-                           hn::Set(U(), static_cast<std::uint32_t>(LaneState::crossing)), state);
-    hn::Store(state, U(), lanes_.state + at);
+  template <class E>
+  static HWY_INLINE VU of(E value) {
+    return hn::Set(U(), static_cast<std::uint32_t>(value));
+  }
+  HWY_INLINE MF running_lanes(int at, LaneDue due) const {
+    const auto runs = hn::Eq(hn::Load(U(), lanes_.state + at), of(LaneState::running));
+    return hn::RebindMask(F(), hn::And(runs, hn::Eq(hn::Load(U(), lanes_.due + at), of(due))));
+  }
+  HWY_INLINE Generators generators(int at) const {
+    return {hn::Load(U(), lanes_.random[0] + at), hn::Load(U(), lanes_.random[1] + at),
+            hn::Load(U(), lanes_.random[2] + at), hn::Load(U(), lanes_.random[3] + at)};
+  }
+  HWY_INLINE void keep(const Generators& random, int at) {
     hn::Store(random.s0, U(), lanes_.random[0] + at);
     hn::Store(random.s1, U(), lanes_.random[1] + at);
     hn::Store(random.s2, U(), lanes_.random[2] + at);
     hn::Store(random.s3, U(), lanes_.random[3] + at);
   }
 
-  static HWY_INLINE VU of(LaneDue due) { return hn::Set(U(), static_cast<std::uint32_t>(due)); }
+  // Few at a time: apart, so that all other steps are spared it.
+  HWY_NOINLINE void collide_landed(int at, MF landed) {
+    Generators random = generators(at);
+    collide(at, landed, hn::Load(F(), lanes_.distance + at), random);
+    keep(random, at);
+  }
+
+  HWY_INLINE void step(int at, MF running) {
+    Generators random = generators(at);
+    const V3 p = load(lanes_.position, at);
+    const V3 d = scatter(at, running, random);
+    store(d, lanes_.direction, at);
+
+    const VF sigma = hn::Load(F(), lanes_.sigma + at);
+    const VF xi = random.next(running);
+    const VF distance = hn::Div(hn::Neg(log_lanes(F(), hn::Sub(set(1), xi))), sigma);
+    hn::Store(hn::IfThenElse(running, distance, hn::Load(F(), lanes_.distance + at)), F(),
+              lanes_.distance + at);
+    const V3 q{hn::MulAdd(distance, d.x, p.x), hn::MulAdd(distance, d.y, p.y),
+               hn::MulAdd(distance, d.z, p.z)};
+    const MF safe = region_.holds(running, p, q, lanes_, at);
+    store(choose(safe, q, p), lanes_.position, at);
+    const VU one = hn::Set(U(), 1);
+    const auto add = [&](std::uint32_t* row, MF mask) {
+      const VU old = hn::Load(U(), row + at);
+      hn::Store(hn::Add(old, hn::IfThenElseZero(hn::RebindMask(U(), mask), one)), U(), row + at);
+    };
+    add(lanes_.steps, running);
+    collide(at, safe, distance, random);
+    // What was not safe waits for its ray; what roulette ended is marked already.
+    VU state = hn::Load(U(), lanes_.state + at);
+    const MF waits = hn::AndNot(safe, running);
+    state = hn::IfThenElse(hn::RebindMask(U(), waits), of(LaneState::crossing), state);
+    hn::Store(state, U(), lanes_.state + at);
+    keep(random, at);
+  }
 
   // A new direction for the lanes that one is due for.
-  HWY_INLINE V3 scatter(int at, MF due, Generators& random) {
+  HWY_INLINE V3 scatter(int at, MF running, Generators& random) {
     const V3 d = load(lanes_.direction, at);
+    const VU dues = hn::Load(U(), lanes_.due + at);
+    const MF due = hn::And(running, hn::RebindMask(F(), hn::Eq(dues, of(LaneDue::scattering))));
+    hn::Store(hn::IfThenElseZero(hn::Not(hn::RebindMask(U(), running)), dues), U(), lanes_.due + at);
     if (hn::AllFalse(F(), due)) return d;
     const VF u1 = random.next(due);
     const VF u2 = random.next(due);
@@ -200,19 +214,18 @@ class Kernel {
     const VF lift = hn::Load(F(), lanes_.lift + at);
     weight = hn::Mul(weight, lift);
     VU state = hn::Load(U(), lanes_.state + at);
-    if (model_.rests_at_collisions)
-      state = hn::IfThenElse(m, hn::Set(U(), static_cast<std::uint32_t>(LaneState::collided)), state);
+    if (model_.rests_at_collisions) state = hn::IfThenElse(m, of(LaneState::collided), state);
     const MF plays = hn::And(safe, hn::Lt(weight, set(kRouletteThreshold)));
     if (!hn::AllFalse(F(), plays)) {
       const VF survival = hn::Mul(weight, set(1 / kRouletteThreshold));
       const MF survives = hn::Lt(random.next(plays), survival);
       hn::Store(hn::IfThenElse(hn::And(plays, survives), hn::Div(lift, survival), lift), F(),
                 lanes_.lift + at);
-      state = hn::IfThenElse(hn::RebindMask(U(), hn::AndNot(survives, plays)),
-                             hn::Set(U(), static_cast<std::uint32_t>(LaneState::absorbed)), state);
+      state =
+          hn::IfThenElse(hn::RebindMask(U(), hn::AndNot(survives, plays)), of(LaneState::absorbed), state);
     }
     hn::Store(state, U(), lanes_.state + at);
-    const VU dead = hn::Set(U(), static_cast<std::uint32_t>(LaneState::absorbed));
+    const VU dead = of(LaneState::absorbed);
     const VU scattered = hn::IfThenElseZero(hn::Ne(state, dead), one);
     hn::Store(hn::Add(hn::Load(U(), lanes_.order + at), scattered), U(), lanes_.order + at);
   }

@@ -120,9 +120,9 @@ void find_resting(const LaneModel& model, const Lanes& lanes, RestingLanes& rest
     const MF rests = hn::Not(hn::Or(in(LaneState::running), in(LaneState::empty)));
     store_chosen(hn::Iota(U(), static_cast<std::uint32_t>(at)), rests, resting.lane + resting.count);
     resting.count += static_cast<int>(hn::CountTrue(F(), rests));
-    crossings.add(lanes, at, in(LaneState::crossing));
+    if (resting.wants_rays) crossings.add(lanes, at, in(LaneState::crossing));
   }
-  make_rays(model.region.balls, crossings, resting);
+  if (resting.wants_rays) make_rays(model.region.balls, crossings, resting);
 }
 
 void give_balls(const EmptyBalls& field, Lanes& lanes, std::span<const std::uint32_t> to) {

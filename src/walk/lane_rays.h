@@ -8,10 +8,12 @@
 
 namespace meander {
 
-/// The lanes that rest, in `lane`. Of those whose steps may cross, by lane: `clear` is how far along the step
-/// balls tell that nothing is crossed (0 where the step is shorter than a cell), and `ray`, where that is not
-/// all of it, which of the rays tells about the rest. Room for a vector beyond the last lane.
+/// The lanes that rest, in `lane`. Of those whose steps may cross, if `wants_rays`, by lane: `clear` is how
+/// far along the step balls tell that nothing is crossed (0 where the step is shorter than a cell), and
+/// `ray`, where that is not all of it, which of the rays tells about the rest. Room for a vector beyond the
+/// last lane.
 struct RestingLanes {
+  bool wants_rays = true;
   alignas(64) std::uint32_t lane[kLanes + 16];
   int count = 0;
   Steps rays;

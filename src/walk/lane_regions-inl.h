@@ -75,7 +75,7 @@ class Region<SafeRegion::Kind::balls> {
   }
 
   // Looks for the balls of the cells in which the steps end that left their lanes' balls. Few do: they are
-  // gathered from all vectors. The lanes whose steps are in them take those steps again.
+  // gathered from all vectors. The lanes whose steps are in them have landed.
   HWY_INLINE void settle(Lanes& lanes) {
     const int count = std::exchange(lost_.count, 0);
     for (int at = 0; at < count; at += static_cast<int>(hn::Lanes(F()))) {
@@ -102,15 +102,21 @@ class Region<SafeRegion::Kind::balls> {
     const Balls balls = gather_balls(*region_.balls, balls_at(*region_.balls, q, real));
     const MF found = hn::And(real, hn::And(balls.hold(p), balls.hold(q)));
     if (hn::AllFalse(F(), found)) return;
-    alignas(64) float rows[4][hn::MaxLanes(F())];
+    alignas(64) float center[3][hn::MaxLanes(F())];
+    alignas(64) float to[3][hn::MaxLanes(F())];
+    alignas(64) float radius2[hn::MaxLanes(F())];
     alignas(64) std::uint32_t lane[hn::MaxLanes(F())];
     hn::StoreU(hn::Compress(hn::Load(U(), lost_.lane + at), hn::RebindMask(U(), found)), U(), lane);
-    store_chosen(balls.center, found, rows, 0);
-    hn::StoreU(hn::Compress(balls.radius2, found), F(), rows[3]);
+    store_chosen(balls.center, found, center, 0);
+    store_chosen(q, found, to, 0);
+    hn::StoreU(hn::Compress(balls.radius2, found), F(), radius2);
     for (std::size_t i = 0, count = hn::CountTrue(F(), found); i < count; ++i) {
-      for (int axis = 0; axis < 3; ++axis) lanes.ball_center[axis][lane[i]] = rows[axis][i];
-      lanes.ball_radius2[lane[i]] = rows[3][i];
-      lanes.due[lane[i]] = static_cast<std::uint32_t>(LaneDue::same_flight);
+      for (int axis = 0; axis < 3; ++axis) {
+        lanes.ball_center[axis][lane[i]] = center[axis][i];
+        lanes.position[axis][lane[i]] = to[axis][i];
+      }
+      lanes.ball_radius2[lane[i]] = radius2[i];
+      lanes.due[lane[i]] = static_cast<std::uint32_t>(LaneDue::collision);
       lanes.state[lane[i]] = static_cast<std::uint32_t>(LaneState::running);
     }
   }

@@ -38,7 +38,9 @@ template <World W, LaneClient C>
 class LaneWalks {
  public:
   LaneWalks(InstructionSet set, const W& world, const LaneModel& model, C& client) noexcept
-      : set_(set), world_(world), model_(model), client_(client) {}
+      : set_(set), world_(world), model_(model), client_(client) {
+    resting_.wants_rays = kTogether;
+  }
 
   /// Runs until the client has no walk left; false when it said stop, which is asked whenever rays are
   /// traced, and every kStopInterval steps at least. Errors: whatever the client throws.

@@ -27,9 +27,9 @@ enum class LaneState : std::uint32_t {
   empty      // holds no walk
 };
 
-/// What a running lane does first: fly, scatter and fly, fly `distance` along its direction, or collide after
-/// that flight.
-enum class LaneDue : std::uint32_t { flight, scattering, same_flight, collision };
+/// What a running lane does first: fly, scatter and fly, or collide where it is, `distance` having been
+/// flown.
+enum class LaneDue : std::uint32_t { flight, scattering, collision };
 
 /// The walks of a batch, one a lane; single precision. Weights as in PathWeight: `ratio` are the densities of
 /// the free paths in proportion, `lift` what roulette has multiplied the throughput by, which `throughput`
