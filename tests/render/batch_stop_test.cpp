@@ -19,14 +19,15 @@ struct Misses {
   std::atomic<bool>& stop;
   bool first_walks;
   std::size_t drawn = 0;
+  BatchSample sample = {};
 
-  [[nodiscard]] bool next(BatchSample& sample) {
-    if (drawn == kSamples) return false;
+  [[nodiscard]] const BatchSample* next() {
+    if (drawn == kSamples) return nullptr;
     sample = {drawn, {}, Random{{1, 0, 0, static_cast<std::uint32_t>(drawn)}}};
     sample.start.ray = {{1.2, -0.2, 6}, {0, 0, first_walks && drawn == 0 ? Real(-1) : Real(1)}};
     sample.start.hit = geometry.closest_hit(sample.start.ray);
     if (++drawn == kAsked) stop = true;
-    return true;
+    return &sample;
   }
   void done(std::size_t, const RadianceSink&) {}
 };
