@@ -17,9 +17,11 @@ void write(const std::string& file, const std::string& text) { std::ofstream(fil
 
 void settle() { std::this_thread::sleep_for(std::chrono::milliseconds(40)); }
 
-void set_time(const std::string& file, int seconds) {
+// The stamp of a file that was written so many seconds after an hour ago.
+FileStamp set_time(const std::string& file, int seconds) {
   fs::last_write_time(
       file, fs::file_time_type::clock::now() - std::chrono::hours(1) + std::chrono::seconds(seconds));
+  return stamp_of(file);
 }
 
 }  // namespace
@@ -54,8 +56,7 @@ TEST_CASE("what changes between the reading of a file and its watch is reported"
   const TemporaryFolder folder;
   const std::string file = folder.at("a.toml");
   write(file, "one");
-  set_time(file, 0);
-  const FileStamp read = stamp_of(file);
+  const FileStamp read = set_time(file, 0);
   set_time(file, 1);
   FileWatch watch;
   watch.watch({read});
@@ -71,8 +72,7 @@ TEST_CASE("who goes back to a file that was watched before is told what has chan
   const TemporaryFolder folder;
   const std::string file = folder.at("a.toml");
   write(file, "one");
-  set_time(file, 0);
-  const FileStamp first = stamp_of(file);
+  const FileStamp first = set_time(file, 0);
   FileWatch watch;
   watch.watch({first});
   set_time(file, 1);
@@ -85,8 +85,7 @@ TEST_CASE("who goes back to a file that was watched before is told what has chan
   watch.watch({first});
   CHECK(watch.changed().size() == 1);
   watch.watch({});
-  set_time(file, 3);
-  watch.watch({stamp_of(file)});  // a new reading
+  watch.watch({set_time(file, 3)});  // a new reading
   CHECK(watch.changed().empty());
 }
 

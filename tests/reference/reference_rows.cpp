@@ -216,16 +216,18 @@ bool run(const Options& options) {
     return std::any_of(scores.begin(), scores.end(),
                        [&](const Score& s) { return s.name == name && s.walk == name_of(walk); });
   };
-  for (std::size_t i = 0; i < 2 * cases.size(); i += i % 2 == 1 && options.is_spread() ? 13 : 1) {
-    const ReferenceCase& c = cases[i / 2];
-    const WalkCode walk = kWalks[i % 2];
-    if (c.name.find(options.rows) == std::string::npos || is_done(c.name, walk)) continue;
-    for (const Score& s : run_case(c, i / 2, walk, options)) {
-      if (keep) write(file, s);
-      if (!options.is_spread())
-        std::printf("%zu/%zu %s %s %s: z %.2f, %.0f walks, %.1f s\n", i / 2 + 1, cases.size(), c.name.c_str(),
-                    s.walk.c_str(), s.quantity.c_str(), s.z, s.walks, timer.seconds());
-      scores.push_back(s);
+  for (std::size_t i = 0; i < cases.size(); i += options.is_spread() ? 7 : 1) {
+    const std::string& name = cases[i].name;
+    if (name.find(options.rows) == std::string::npos) continue;
+    for (const WalkCode walk : kWalks) {
+      if (is_done(name, walk)) continue;
+      for (const Score& s : run_case(cases[i], i, walk, options)) {
+        if (keep) write(file, s);
+        if (!options.is_spread())
+          std::printf("%zu/%zu %s %s %s: z %.2f, %.0f walks, %.1f s\n", i + 1, cases.size(), name.c_str(),
+                      s.walk.c_str(), s.quantity.c_str(), s.z, s.walks, timer.seconds());
+        scores.push_back(s);
+      }
     }
     std::fflush(stdout);
   }
