@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "math/types.h"
 
@@ -34,11 +35,18 @@ class Random {
     return result;
   }
 
-  /// Uniform on the grid k 2^-24, k = 0 … 2^24 - 1: 1 - next() is exact in float and never 0. The grid caps
-  /// one free flight at 16.6 mean free paths.
-  [[nodiscard]] Real next() noexcept { return static_cast<Real>(next_bits() >> 8) * Real(0x1p-24); }
+  /// Uniform on the grid k 2^-p, k = 0 … 2^p - 1, with Real's p digits (float 24, double 53): 1 - next() is
+  /// exact and never 0. The grid caps one free flight at p ln 2 mean free paths (float 16.6, double 36.7).
+  [[nodiscard]] Real next() noexcept {
+    if constexpr (kDigits <= 32) return static_cast<Real>(next_bits() >> (32 - kDigits)) * kSpacing;
+    const std::uint64_t high = next_bits();
+    return static_cast<Real>((high << 32 | next_bits()) >> (64 - kDigits)) * kSpacing;
+  }
 
  private:
+  static constexpr int kDigits = std::numeric_limits<Real>::digits;
+  static constexpr Real kSpacing = std::numeric_limits<Real>::epsilon() / 2;
+
   static std::uint32_t rotate(std::uint32_t x, int k) noexcept { return (x << k) | (x >> (32 - k)); }
 
   std::array<std::uint32_t, 4> s_;

@@ -13,6 +13,7 @@
 namespace meander {
 namespace {
 
+constexpr int kDigits = std::numeric_limits<Real>::digits;
 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
 constexpr Real kSigmas[] = {Real(1e-6), Real(0.01), Real(1), Real(37.5), Real(1e6)};
 
@@ -34,7 +35,7 @@ TEST_CASE("Free paths are the tabulated quantiles") {
     CAPTURE(u);
     CHECK(std::abs(distance - expected) <= (u == 0 ? 0 : tolerance));
   }
-  CHECK(compared == 10);
+  CHECK(compared == (kDigits < 40 ? 10 : 11));  // the last is 1 - 1e-12
 }
 
 TEST_CASE("On the generator's grid a free path is exact to two units in the last place") {
@@ -57,7 +58,7 @@ TEST_CASE("On the generator's grid a free path is exact to two units in the last
 TEST_CASE("Extreme random numbers give finite free paths at extreme extinctions") {
   for (const Real sigma : kSigmas) {
     check_extremes<1>([&](const auto& u) { return sample_free_path(sigma, u[0]); },
-                      [&](Real s) { return s >= 0 && s * sigma < Real(16.64) && std::isfinite(s); });
+                      [&](Real s) { return s >= 0 && s * sigma < kDigits * Real(0.6932) && std::isfinite(s); });
     CHECK(sample_free_path(sigma, 0) == 0);
   }
 }
