@@ -15,6 +15,13 @@ namespace meander {
 [[nodiscard]] std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                                   std::array<std::uint32_t, 2> key) noexcept;
 
+/// A number of Random::next() and a point of the step that follows it on the grid, so that number + rest is
+/// uniform on (0, 1) and resolved to 2^-32 where it is small.
+struct FineNumber {
+  Real number;
+  Real rest;
+};
+
 /// xoshiro128++ 1.0 (Blackman & Vigna 2021, "Scrambled Linear Pseudorandom Number Generators"). The state
 /// must not be all zero.
 class Random {
@@ -41,6 +48,15 @@ class Random {
     if constexpr (kDigits <= 32) return static_cast<Real>(next_bits() >> (32 - kDigits)) * kSpacing;
     const std::uint64_t high = next_bits();
     return static_cast<Real>((high << 32 | next_bits()) >> (64 - kDigits)) * kSpacing;
+  }
+
+  /// The same number as next() would give, with what that cuts off (in float, 8 bits and half of a ninth).
+  [[nodiscard]] FineNumber next_fine() noexcept {
+    if constexpr (kDigits > 32) return {next(), kSpacing / 2};
+    const std::uint32_t bits = next_bits();
+    const std::uint32_t cut = bits & ((1u << (32 - kDigits)) - 1);
+    return {static_cast<Real>(bits >> (32 - kDigits)) * kSpacing,
+            static_cast<Real>(2 * cut + 1) * Real(0x1p-33)};
   }
 
  private:

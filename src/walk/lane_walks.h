@@ -4,7 +4,6 @@
 
 #include <hwy/cache_control.h>
 
-#include <limits>
 #include <utility>
 
 #include "walk/lanes.h"
@@ -157,17 +156,11 @@ class LaneWalks {
           world_.begin_crossing(rays[i].origin, rays[i].direction, rays[i].distance, hints[i]);
   }
 
-  // Of a lane's step. Where the hero channel does not collide, the kernel divides 0 by 0 once in 2^24 steps.
-  [[nodiscard]] Real distance_of(int lane) const noexcept {
-    const Real distance(lanes_.distance[lane]);
-    return distance >= 0 ? distance : std::numeric_limits<Real>::infinity();
-  }
-
   // The first part of a long step is often in balls, and all of some.
   [[nodiscard]] LaneRay ray_of(int lane) noexcept {
     const Vec3 p(position(lane));
     const Vec3 d(lanes_.direction[0][lane], lanes_.direction[1][lane], lanes_.direction[2][lane]);
-    const Real distance = distance_of(lane);
+    const Real distance(lanes_.distance[lane]);
     const EmptyBalls* balls = model_.region.balls;
     Real clear = 0;
     if (balls && distance * Real(balls->cells_per_unit) > 1)
@@ -177,7 +170,7 @@ class LaneWalks {
   }
 
   [[nodiscard]] Crossing finish_ray(int lane, const Walker& walker) noexcept {
-    const Real distance = distance_of(lane);
+    const Real distance(lanes_.distance[lane]);
     if constexpr (kTogether) {
       if (clear_[lane] == distance)
         return {CrossingKind::none, distance, walker.position + distance * walker.direction, {}, {}};

@@ -91,6 +91,22 @@ TEST_CASE("Numbers lie on the grid of Real's digits in [0, 1), and 1 minus them 
   CHECK(Random({0xffffffffu, 0xfffffffeu, 1, 1}).next() == kLargestRandom);
 }
 
+TEST_CASE("A fine number is the next number and a point of the step after it") {
+  Random plain = stream(3, 2, 1);
+  Random fine = plain;
+  double rests = 0;
+  constexpr int kCount = 1'000'000;
+  for (int i = 0; i < kCount; ++i) {
+    const FineNumber number = fine.next_fine();
+    REQUIRE(number.number == plain.next());
+    REQUIRE(number.rest > 0);
+    REQUIRE(number.rest < 0.5 * kRealEpsilon);
+    rests += number.rest / (0.5 * kRealEpsilon) - 0.5;
+  }
+  CHECK(fine.state() == plain.state());
+  CHECK(std::abs(rests) < 4 * std::sqrt(kCount / 12.0));
+}
+
 TEST_CASE("Numbers have the mean and variance of the uniform distribution and fill it evenly") {
   constexpr int kCount = 8'000'000;
   constexpr std::size_t kCells = 4096;

@@ -1,4 +1,5 @@
-// Walks the hard cases in double precision and prints what they come to: tests/stability/exact/double_walks.csv.
+// Walks the hard cases in double precision and prints what they come to:
+// tests/stability/exact/double_walks.csv.
 //   double_oracle [STEPS A CASE (2e7)] [FIRST CASE LAST CASE]
 #include <cstdio>
 #include <cstdlib>

@@ -105,7 +105,8 @@ std::string describe(const ExactCase& of) {
 }
 
 std::uint64_t walks_within(const ExactCase& of, double steps) {
-  const double a_walk = (steps_of(of, of.sigma_t.x) + steps_of(of, of.sigma_t.y) + steps_of(of, of.sigma_t.z)) / 3;
+  const double a_walk =
+      (steps_of(of, of.sigma_t.x) + steps_of(of, of.sigma_t.y) + steps_of(of, of.sigma_t.z)) / 3;
   return static_cast<std::uint64_t>(std::max(steps / a_walk, 100.0));
 }
 

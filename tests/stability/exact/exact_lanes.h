@@ -69,9 +69,8 @@ class ExactLanes {
   ExactResults results;
   const LaneModel model{medium_of(of), region_of(of), false};
   ExactLanes client(of, walks, seed, results);
-  with_world(of, [&](const auto& world) {
-    (void)LaneWalks(instruction_sets().back(), world, model, client).run();
-  });
+  with_world(
+      of, [&](const auto& world) { (void)LaneWalks(instruction_sets().back(), world, model, client).run(); });
   return results;
 }
 

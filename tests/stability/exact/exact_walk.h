@@ -1,4 +1,5 @@
-// One walk in an exact shape after another, counted: by the scalar code, or in whichever order others walk them.
+// One walk in an exact shape after another, counted: by the scalar code, or in whichever order others walk
+// them.
 #pragma once
 
 #include <algorithm>
@@ -99,8 +100,8 @@ class ExactWalk {
     return case_.shape == ExactShape::sphere ? 1 - glm::length(p) : -p.z;
   }
 
-  // Draws the first word of a walk from the part of its range in which the flight may end inside the body: twice
-  // the optical thickness. The other words all pass.
+  // Draws the first word of a walk from the part of its range in which the flight may end inside the body:
+  // twice the optical thickness. The other words all pass.
   [[nodiscard]] Random with_early_flight(const Random& random) {
     const double tau = case_.sigma_t.x * (case_.shape == ExactShape::sphere ? 2 : 1);
     const double words = std::ceil(2 * tau * 0x1p32);
@@ -141,7 +142,8 @@ class ExactWalk {
         case_.ior == 1 ? Fresnel{0, cosine} : eval_fresnel(cosine, static_cast<Real>(1 / case_.ior));
     let_out(exit, 1 - fresnel.reflectance);
     walker_.weight.throughput *= fresnel.reflectance;
-    if (fresnel.reflectance == 0 || !walker_.weight.survives_roulette(random, kRouletteThreshold)) return false;
+    if (fresnel.reflectance == 0 || !walker_.weight.survives_roulette(random, kRouletteThreshold))
+      return false;
     if (diffuse)
       send_inward(n, random);
     else

@@ -87,7 +87,8 @@ class Scores {
       squares += score.z * score.z;
       worst = std::max(worst, std::abs(score.z));
     }
-    MESSAGE(scores_.size() << " z, largest " << worst << " of " << threshold << ", mean of z^2 " << squares / count);
+    MESSAGE(scores_.size() << " z, largest " << worst << " of " << threshold << ", mean of z^2 "
+                           << squares / count);
     // Rows of one walk hang together, up to four of them.
     CHECK(squares / count < 1 + 3.3 * std::sqrt(2 * 4 / count));
   }
@@ -102,7 +103,8 @@ TEST_CASE("hard cases: the float scalar walk agrees with the walk in double prec
   const std::vector<ExactCase> cases = exact_cases();
   Scores scores;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const ExactResults results = walk_scalar(cases[i], walks_within(cases[i], steps_of_a_case()), 2'000'000 + i);
+    const ExactResults results =
+        walk_scalar(cases[i], walks_within(cases[i], steps_of_a_case()), 2'000'000 + i);
     for (const Row& row : rows_of(i)) scores.add(cases[i], row, results);
   }
   scores.check();
@@ -113,7 +115,8 @@ TEST_CASE("hard cases: walks in lanes agree with the walk in double precision") 
   Scores scores;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (!walks_in_lanes(cases[i])) continue;
-    const ExactResults results = walk_lanes(cases[i], walks_within(cases[i], 2 * steps_of_a_case()), 3'000'000 + i);
+    const ExactResults results =
+        walk_lanes(cases[i], walks_within(cases[i], 2 * steps_of_a_case()), 3'000'000 + i);
     for (const Row& row : rows_of(i)) scores.add(cases[i], row, results);
   }
   scores.check();
