@@ -52,11 +52,14 @@ class Random {
 
   /// The same number as next() would give, with what that cuts off (in float, 8 bits and half of a ninth).
   [[nodiscard]] FineNumber next_fine() noexcept {
-    if constexpr (kDigits > 32) return {next(), kSpacing / 2};
-    const std::uint32_t bits = next_bits();
-    const std::uint32_t cut = bits & ((1u << (32 - kDigits)) - 1);
-    return {static_cast<Real>(bits >> (32 - kDigits)) * kSpacing,
-            static_cast<Real>(2 * cut + 1) * Real(0x1p-33)};
+    if constexpr (kDigits > 32) {
+      return {next(), kSpacing / 2};
+    } else {
+      const std::uint32_t bits = next_bits();
+      const std::uint32_t cut = bits & ((1u << (32 - kDigits)) - 1);
+      return {static_cast<Real>(bits >> (32 - kDigits)) * kSpacing,
+              static_cast<Real>(2 * cut + 1) * Real(0x1p-33)};
+    }
   }
 
  private:
