@@ -21,7 +21,7 @@ namespace meander::HWY_NAMESPACE {
 struct Generators {
   VU s0, s1, s2, s3;
 
-  HWY_INLINE VF next() {
+  HWY_INLINE VU next_bits() {
     const VU sum = hn::Add(s0, s3);
     const VU bits = hn::Add(hn::Or(hn::ShiftLeft<7>(sum), hn::ShiftRight<25>(sum)), s0);
     const VU t = hn::ShiftLeft<9>(s1);
@@ -31,15 +31,25 @@ struct Generators {
     s0 = hn::Xor(s0, s3);
     s2 = hn::Xor(s2, t);
     s3 = hn::Or(hn::ShiftLeft<11>(s3), hn::ShiftRight<21>(s3));
-    const hn::RebindToSigned<F> di;
-    return hn::Mul(hn::ConvertTo(F(), hn::BitCast(di, hn::ShiftRight<8>(bits))), set(0x1p-24f));
+    return bits;
+  }
+  static HWY_INLINE VF as_float(VU number) {
+    return hn::ConvertTo(F(), hn::BitCast(hn::RebindToSigned<F>(), number));
   }
   // Only the masked lanes draw.
   HWY_INLINE VF next(MF mask) {
     Generators drawn = *this;
-    const VF value = drawn.next();
+    const VF value = hn::Mul(as_float(hn::ShiftRight<8>(drawn.next_bits())), set(0x1p-24f));
     *this = choose(mask, drawn, *this);
     return value;
+  }
+  // The same, with the rest of Random::next_fine.
+  HWY_INLINE VF next_fine(MF mask, VF& rest) {
+    Generators drawn = *this;
+    const VU bits = drawn.next_bits();
+    *this = choose(mask, drawn, *this);
+    rest = hn::MulAdd(as_float(hn::And(bits, hn::Set(U(), 255))), set(0x1p-32f), set(0x1p-33f));
+    return hn::Mul(as_float(hn::ShiftRight<8>(bits)), set(0x1p-24f));
   }
   static HWY_INLINE Generators choose(MF mask, const Generators& yes, const Generators& no) {
     const auto m = hn::RebindMask(U(), mask);
@@ -105,8 +115,9 @@ class Kernel {
     store(d, lanes_.direction, at);
 
     const VF sigma = hn::Load(F(), lanes_.sigma + at);
-    const VF xi = random.next(running);
-    const VF distance = hn::Div(hn::Neg(log_lanes(F(), hn::Sub(set(1), xi))), sigma);
+    VF rest;
+    const VF xi = random.next_fine(running, rest);
+    const VF distance = hn::Div(hn::Sub(rest, log_lanes(F(), hn::Sub(set(1), xi))), sigma);
     hn::Store(hn::IfThenElse(running, distance, hn::Load(F(), lanes_.distance + at)), F(),
               lanes_.distance + at);
     const V3 q{hn::MulAdd(distance, d.x, p.x), hn::MulAdd(distance, d.y, p.y),

@@ -47,10 +47,7 @@ struct Crossings {
     store_chosen(load(lanes.direction, at), crossing, direction, count);
     store_chosen(load(lanes.ball_center, at), crossing, center, count);
     store_chosen(hn::Load(F(), lanes.ball_radius2 + at), crossing, radius2 + count);
-    // Where the hero channel does not collide, the kernel divides 0 by 0 once in 2^24 steps.
-    const VF drawn = hn::Load(F(), lanes.distance + at);
-    const VF flown = hn::IfThenElse(hn::Ge(drawn, set(0)), drawn, hn::Inf(F()));
-    store_chosen(flown, crossing, distance + count);
+    store_chosen(hn::Load(F(), lanes.distance + at), crossing, distance + count);
     count += static_cast<int>(hn::CountTrue(F(), crossing));
   }
 };

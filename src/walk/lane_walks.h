@@ -2,7 +2,6 @@
 // rest.
 #pragma once
 
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -131,19 +130,13 @@ class LaneWalks {
     for (int i = 0; i < resting_.count; ++i) {
       const auto lane = static_cast<int>(resting_.lane[i]);
       if (lanes_.state[lane] != static_cast<std::uint32_t>(LaneState::crossing)) continue;
-      begun_[lane] = world_.first_crossing(position(lane), direction(lane), distance_of(lane));
+      begun_[lane] = world_.first_crossing(position(lane), direction(lane), Real(lanes_.distance[lane]));
       ++counters_.rays;
     }
   }
 
-  // Of a lane's step. Where the hero channel does not collide, the kernel divides 0 by 0 once in 2^24 steps.
-  [[nodiscard]] Real distance_of(int lane) const noexcept {
-    const Real distance(lanes_.distance[lane]);
-    return distance >= 0 ? distance : std::numeric_limits<Real>::infinity();
-  }
-
   [[nodiscard]] Crossing finish_ray(int lane) noexcept {
-    const Real distance = distance_of(lane);
+    const Real distance(lanes_.distance[lane]);
     if constexpr (kTogether) {
       const Real clear(resting_.clear[lane]);
       if (clear == distance)

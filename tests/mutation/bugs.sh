@@ -3,7 +3,7 @@
 # The scalar walk, and what both codes share.
 mutant sign_of_g slab_forward walk/random_walk.h 'sample_henyey_greenstein(g, u1)' 'sample_henyey_greenstein(-g, u1)'
 mutant sigma_t_3_percent_high slab_unscattered walk/random_walk.h \
-  'sample_free_path(sigma, random.next())' 'sample_free_path(Real(1.03) * sigma, random.next())'
+  'sample_free_path(sigma, random.next_fine())' 'sample_free_path(Real(1.03) * sigma, random.next_fine())'
 mutant exit_1_percent_short mean_path walk/analytic_worlds.h \
   'std::max(b > 0 ? -c / (b + root) : root - b, Real(0));' \
   'Real(0.99) * std::max(b > 0 ? -c / (b + root) : root - b, Real(0));'
@@ -49,7 +49,7 @@ mutant lane_layer_too_thick slab_forward_lanes walk/lane_regions-inl.h \
 mutant lane_not_moved half_space_lanes walk/lane_kernels.cpp \
   'store(choose(safe, q, p), lanes_.position, at);' 'store(p, lanes_.position, at);'
 mutant lane_uniform_paths infinite_moments_lanes walk/lane_kernels.cpp \
-  'hn::Div(hn::Neg(log_lanes(F(), hn::Sub(set(1), xi))), sigma)' 'hn::Div(hn::Add(xi, xi), sigma)'
+  'hn::Div(hn::Sub(rest, log_lanes(F(), hn::Sub(set(1), xi))), sigma)' 'hn::Div(hn::Add(xi, xi), sigma)'
 mutant lane_backward_not_swapped half_space_backward_lanes walk/lane_kernels.cpp \
   'if (g < 0) {' 'if (false) {'
 mutant lane_tallies_after_the_albedo sphere_fresnel_lanes walk/lane_kernels.cpp \
