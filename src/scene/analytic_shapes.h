@@ -181,6 +181,7 @@ struct AffineShape {
     const Vec3 normal = normal_from(exit.gradient);
     return {CrossingKind::exit, far, snap(p + far * d, exit.gradient), normal, normal};
   }
+
  private:
   template <class T>
   [[nodiscard]] const glm::mat<3, 3, T>& to_unit_in(T) const noexcept {

@@ -116,10 +116,10 @@ struct BlockRatio {
   double weight = 0;
 };
 
-// Variance of A over that of B where both have some: the median over the blocks, each weighing as the lesser of
-// both. A sum over the sums would go by the brightest firefly, and so would weights that grow with the variance
-// in either image; a plain median would go by blocks of rare events, which most images of few samples miss. NaN
-// where no block has both.
+// Variance of A over that of B where both have some: the median over the blocks, each weighing as the lesser
+// of both. A sum over the sums would go by the brightest firefly, and so would weights that grow with the
+// variance in either image; a plain median would go by blocks of rare events, which most images of few
+// samples miss. NaN where no block has both.
 double variance_ratio(const std::vector<Channels>& blocks, int channel) {
   std::vector<BlockRatio> ratios;
   double total = 0;

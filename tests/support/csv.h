@@ -39,7 +39,8 @@ struct CsvTable {
   }
 };
 
-/// Reads a file without quoted cells, lines that begin with # left out; throws std::runtime_error when it is missing, empty or ragged.
+/// Reads a file without quoted cells, lines that begin with # left out; throws std::runtime_error when it is
+/// missing, empty or ragged.
 [[nodiscard]] inline CsvTable read_csv(const std::string& path, bool header = true) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
