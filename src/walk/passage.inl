@@ -162,8 +162,9 @@ struct PathTracer<G>::Passage {
 
   // False when the boundary mirrors the path off.
   [[nodiscard]] bool enter() noexcept {
-    if (!hit.entering) {  // the camera is inside
+    if (!hit.entering) {  // the camera is inside, or the path has just left a part that encloses nothing
       walker.position = Vec3(state.ray.origin - tracer.geometry_.center(hit.object));
+      if (state.ray.departure.object == hit.object) walker.position += state.ray.departure.offset;
       return true;
     }
     if (is_rough()) {
