@@ -39,8 +39,11 @@ Scene with_fault(Scene scene, Fault fault) {
     case Fault::albedo:
       edit_media(scene, [](Medium& medium) { medium.albedo *= Real(0.98); });
       break;
-    case Fault::sigma:
-      edit_media(scene, [](Medium& medium) { medium.sigma_t *= Real(1.2); });
+    case Fault::doubled:
+      edit_media(scene, [](Medium& medium) { medium.sigma_t *= Real(2); });
+      break;
+    case Fault::diluted:
+      edit_media(scene, [](Medium& medium) { medium.sigma_t *= Real(1e-3); });
       break;
     case Fault::triangle:
       edit_meshes(scene, [](const Mesh& mesh) { return without_triangle(mesh, mesh.triangles.size() / 2); });

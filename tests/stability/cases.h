@@ -33,9 +33,9 @@ struct Stated {
   double value = 0;
 };
 
-/// What is done to a case for its test to fail: albedo 2 % lower, sigma_t 20 % higher, a triangle of the mesh
-/// dropped, the body 5 % of its size aside, the hole closed, or the bodies apart.
-enum class Fault { albedo, sigma, triangle, aside, closed, apart };
+/// What is done to a case for its test to fail: albedo 2 % lower, sigma_t twice as high or a thousandth, a
+/// triangle of the mesh dropped, the body 5 % of its size aside, the hole closed, or the bodies apart.
+enum class Fault { albedo, doubled, diluted, triangle, aside, closed, apart };
 
 struct Case {
   std::string group;
@@ -50,7 +50,8 @@ struct Case {
   bool leaks = false;     // walks must be lost, and are counted; elsewhere none may be
   bool overlaps = false;  // a warning names the bodies; elsewhere there is none
   bool inaccurate = false;  // a warning says so; elsewhere there is none
-  std::uint64_t long_spp = 8;   // times as many samples in the long run
+  std::uint64_t long_spp = 8;  // times as many samples in the long run
+  bool rare = false;           // events are so rare that the quick run would not see its fault
 };
 
 /// `rows` grows by the cases of media, of shapes, and of whole scenes and films.

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "render/small_scene.h"
+#include "scene/precision.h"
 #include "stability/double_walk.h"
 #include "trace/overlaps.h"
 
@@ -122,7 +123,9 @@ class Judge {
 void judge_warnings(const Case& row, const Scene& scene, Outcome& outcome) {
   const Geometry geometry(scene, 1);
   if (row.overlaps == overlap_warnings(scene, geometry).empty())
-    outcome.reasons.push_back(row.overlaps ? "no warning of an overlap" : "a warning of an overlap");
+    outcome.reasons.emplace_back(row.overlaps ? "no warning of an overlap" : "a warning of an overlap");
+  if (row.inaccurate == precision_warnings(scene).empty())
+    outcome.reasons.emplace_back(row.inaccurate ? "no warning of precision" : "a warning of precision");
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ void add_albedo_cases(std::vector<Case>& rows) {
   const double lost = 1 - double{static_cast<Real>(1 - 1e-6)};
   Case almost{group, "1 - 1e-6 ball, absorbed", "(1 - albedo) sigma_t 4V/S",
               white_surround(SphereShape{}, {grey(0.02, 1 - 1e-6), Boundary::matched, 1, 0}, kHeight), 600,
-              Exact{lost * 50 * 4 / 3 * (1 - 530 * lost), 50 * lost * 1e-3}, Fault::sigma};
+              Exact{lost * 50 * 4 / 3 * (1 - 530 * lost), 50 * lost * 1e-3}, Fault::doubled};
   state_absorbed(almost);
   rows.push_back(std::move(almost));
 }
@@ -77,12 +77,12 @@ void add_path_cases(std::vector<Case>& rows) {
     state_absorbed(ball);
     rows.push_back(std::move(ball));
     rows.push_back({group, text(ratio) + " cube mesh", "a walk in double precision",
-                    turned_cube(shape_of(make_cube(4, 4)), material), 100, InDouble{}});
+                    turned_cube(shape_of(make_cube(4, 4)), material), 300, InDouble{}});
   }
   for (const double ratio : {1e1, 1e2}) {
     Case ball{group, text(ratio) + " ball, absorbed", "unscattered fraction",
               white_surround(SphereShape{}, {grey(2 * ratio, 0), Boundary::matched, 1, 0}, kHeight), 1000,
-              Exact{absorbed_by_ball(0.5 / ratio), 0, true}, Fault::sigma};
+              Exact{absorbed_by_ball(0.5 / ratio), 0, true}, Fault::doubled};
     state_absorbed(ball);
     rows.push_back(std::move(ball));
   }
@@ -91,9 +91,10 @@ void add_path_cases(std::vector<Case>& rows) {
     const double absorbed = 16 * 4.0 / 3 * 0.5 / ratio;
     Case ball{group, text(ratio) + " ball of ior 4, absorbed", "ior^2 sigma_t 4V/S",
               white_surround(SphereShape{}, {grey(2 * ratio, 0), Boundary::diffuse, 4, 0}, kHeight),
-              ratio < 1e5 ? 1000u : 500u, Exact{absorbed, absorbed * absorbed, true}, Fault::sigma};
+              ratio < 1e5 ? 1000u : 500u, Exact{absorbed, absorbed * absorbed, true}, Fault::doubled};
     state_absorbed(ball);
-    if (ratio > 1e5) ball.long_spp = 200;
+    ball.rare = ratio > 1e5;
+    if (ball.rare) ball.long_spp = 60;
     rows.push_back(std::move(ball));
   }
   // Light from the side: single scattering, in proportion to the depth.
@@ -104,7 +105,8 @@ void add_path_cases(std::vector<Case>& rows) {
     scene.lights.push_back({"sun", DirectionalLight{{-1, 0, 0}, Rgb(static_cast<Real>(ratio))}, false});
     const double once = 0.8 / (4 * glm::pi<double>()) * 0.5 * 2;
     Case row{group, text(ratio) + " cube mesh lit from the side", "single scattering, per sigma_t 4V/S",
-             std::move(scene), ratio < 1e3 ? 400u : 2000u, Exact{once, 3 * sigma * once}, Fault::sigma};
+             std::move(scene), ratio < 1e3 ? 400u : 2000u, Exact{once, 3 * sigma * once}, Fault::doubled};
+    row.rare = ratio > 1e3;
     rows.push_back(std::move(row));
   }
 }
@@ -135,7 +137,7 @@ void add_shortest_paths(std::vector<Case>& rows) {
   const Shape cube = shape_of(make_cube(4, 4));
   const std::string group = "mean free path 1e-6";
   const auto add = [&](const std::string& name, const Scene& scene) {
-    Case row{group, name, "furnace, and a warning", scene, 1, Furnace{}};
+    Case row{group, name, "furnace, and a warning", scene, 1, Furnace{}, Fault::diluted};
     row.inaccurate = true;
     row.long_spp = 1;
     rows.push_back(std::move(row));
@@ -148,7 +150,7 @@ void add_shortest_paths(std::vector<Case>& rows) {
     add(of + "knot", white_surround(knot, white, 2.2));
   }
   Case absorbing{group, "cube mesh, albedo 0.9", "half-space, stated", face_of(shape_of(make_cube(4, 4)), 1e-6),
-                 100, Stated{face_value()}};
+                 100, Stated{face_value()}, Fault::diluted};
   absorbing.inaccurate = true;
   rows.push_back(std::move(absorbing));
 }

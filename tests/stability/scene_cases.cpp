@@ -36,7 +36,7 @@ Scene placed_scene(double scale, const DVec3& by) {
 
 void add_placed_cases(std::vector<Case>& rows) {
   const auto add = [&](const std::string& group, const std::string& name, const Scene& scene) {
-    rows.push_back({group, name, "the same scene, unscaled at the origin", scene, 100,
+    rows.push_back({group, name, "the same scene, unscaled at the origin", scene, 300,
                     Same{placed_scene(1, DVec3(0))}, Fault::aside});
   };
   add("scale", "lit knot and ball 1e-4", placed_scene(1e-4, DVec3(0)));

@@ -1,0 +1,19 @@
+// What single precision cannot do for a scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace meander {
+
+/// The least mean free path, relative to half the largest extent of its object, at which walks are accurate:
+/// a walk's position has 24 bits.
+inline constexpr double kLeastMeanFreePath = 1e-5;
+
+/// One line for each object whose mean free path, in any channel, is shorter: its light is finite, and what
+/// goes in comes out, but how much of it is absorbed is not right. Milliseconds for a large mesh.
+[[nodiscard]] std::vector<std::string> precision_warnings(const Scene& scene);
+
+}  // namespace meander
