@@ -24,8 +24,7 @@ bool whole_alone(const Case& row) {
   return std::holds_alternative<Exact>(row.oracle) || row.scene.film.width == 1;
 }
 
-Rendering rendered(const Scene& scene, std::uint64_t spp, WalkCode walk, std::uint64_t seed) {
-  Job job = make_job(scene, 2);
+Rendering rendered(Job job, std::uint64_t spp, WalkCode walk, std::uint64_t seed) {
   job.walk = walk;
   job.seed = seed;
   return render_spp(job, spp);
@@ -40,7 +39,7 @@ Readings reference_of(const Case& row) {
   const auto pixels = static_cast<std::uint64_t>(row.scene.film.width * row.scene.film.height);
   if (std::holds_alternative<InDouble>(row.oracle)) return double_walk(row.scene, row.spp * pixels);
   if (const auto* same = std::get_if<Same>(&row.oracle))
-    return readings_of(rendered(same->scene, 2 * row.spp, WalkCode::batch, 3).film);
+    return readings_of(rendered(make_job(same->scene, 2), 2 * row.spp, WalkCode::batch, 3).film);
   if (const auto* stated = std::get_if<Stated>(&row.oracle))
     for (Reading& reading : readings[kWhole]) reading.value = stated->value;
   if (std::holds_alternative<Furnace>(row.oracle))
@@ -120,11 +119,10 @@ class Judge {
   std::vector<std::string> reasons_;
 };
 
-void judge_warnings(const Case& row, const Scene& scene, Outcome& outcome) {
-  const Geometry geometry(scene, 1);
-  if (row.overlaps == overlap_warnings(scene, geometry).empty())
+void judge_warnings(const Case& row, const Job& job, Outcome& outcome) {
+  if (row.overlaps == overlap_warnings(*job.scene, *job.geometry).empty())
     outcome.reasons.emplace_back(row.overlaps ? "no warning of an overlap" : "a warning of an overlap");
-  if (row.inaccurate == precision_warnings(scene).empty())
+  if (row.inaccurate == precision_warnings(*job.scene).empty())
     outcome.reasons.emplace_back(row.inaccurate ? "no warning of precision" : "a warning of precision");
 }
 
@@ -139,11 +137,12 @@ Outcome judge(const Case& row, double threshold) {
   Outcome outcome;
   const Readings reference = reference_of(row);
   outcome.held = rescaled(reference, row.offset, row.scale)[kWhole][0];
-  judge_warnings(row, row.scene, outcome);
+  const Job job = make_job(row.scene, 2);
+  judge_warnings(row, job, outcome);
   for (const bool lanes : {false, true}) {
     Judge judge(row, reference, threshold);
     const WalkCode walk = lanes ? WalkCode::batch : WalkCode::scalar;
-    outcome.verdicts[lanes] = judge.verdict(rendered(row.scene, row.spp, walk, 1 + lanes));
+    outcome.verdicts[lanes] = judge.verdict(rendered(job, row.spp, walk, 1 + lanes));
     for (const std::string& reason : judge.reasons())
       outcome.reasons.push_back((lanes ? "lanes: " : "scalar: ") + reason);
   }
@@ -152,7 +151,7 @@ Outcome judge(const Case& row, double threshold) {
 
 bool finds_fault(const Case& row, double threshold) {
   Outcome outcome;
-  const Scene faulty = with_fault(row.scene, row.fault);
+  const Job faulty = make_job(with_fault(row.scene, row.fault), 2);
   judge_warnings(row, faulty, outcome);
   if (!outcome.reasons.empty()) return true;
   const Readings reference = reference_of(row);

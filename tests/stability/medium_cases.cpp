@@ -42,7 +42,7 @@ void add_albedo_cases(std::vector<Case>& rows) {
   // optical radius of 50 (the rows of f1_sphere_iso.csv at 0.9999 and 0.999).
   const double lost = 1 - double{static_cast<Real>(1 - 1e-6)};
   Case almost{group, "1 - 1e-6 ball, absorbed", "(1 - albedo) sigma_t 4V/S",
-              white_surround(SphereShape{}, {grey(0.02, 1 - 1e-6), Boundary::matched, 1, 0}, kHeight), 600,
+              white_surround(SphereShape{}, {grey(0.02, 1 - 1e-6), Boundary::matched, 1, 0}, kHeight), 300,
               Exact{lost * 50 * 4 / 3 * (1 - 530 * lost), 50 * lost * 1e-3}, Fault::doubled};
   state_absorbed(almost);
   rows.push_back(std::move(almost));
@@ -77,7 +77,7 @@ void add_path_cases(std::vector<Case>& rows) {
     state_absorbed(ball);
     rows.push_back(std::move(ball));
     rows.push_back({group, text(ratio) + " cube mesh", "a walk in double precision",
-                    turned_cube(shape_of(make_cube(4, 4)), material), 300, InDouble{}});
+                    turned_cube(shape_of(make_cube(4, 4)), material), 250, InDouble{}});
   }
   for (const double ratio : {1e1, 1e2}) {
     Case ball{group, text(ratio) + " ball, absorbed", "unscattered fraction",
@@ -91,10 +91,10 @@ void add_path_cases(std::vector<Case>& rows) {
     const double absorbed = 16 * 4.0 / 3 * 0.5 / ratio;
     Case ball{group, text(ratio) + " ball of ior 4, absorbed", "ior^2 sigma_t 4V/S",
               white_surround(SphereShape{}, {grey(2 * ratio, 0), Boundary::diffuse, 4, 0}, kHeight),
-              ratio < 1e5 ? 1000u : 500u, Exact{absorbed, absorbed * absorbed, true}, Fault::doubled};
+              ratio < 1e5 ? 500u : 200u, Exact{absorbed, absorbed * absorbed, true}, Fault::doubled};
     state_absorbed(ball);
     ball.rare = ratio > 1e5;
-    if (ball.rare) ball.long_spp = 60;
+    if (ball.rare) ball.long_spp = 150;
     rows.push_back(std::move(ball));
   }
   // Light from the side: single scattering, in proportion to the depth.
@@ -105,7 +105,7 @@ void add_path_cases(std::vector<Case>& rows) {
     scene.lights.push_back({"sun", DirectionalLight{{-1, 0, 0}, Rgb(static_cast<Real>(ratio))}, false});
     const double once = 0.8 / (4 * glm::pi<double>()) * 0.5 * 2;
     Case row{group, text(ratio) + " cube mesh lit from the side", "single scattering, per sigma_t 4V/S",
-             std::move(scene), ratio < 1e3 ? 400u : 2000u, Exact{once, 3 * sigma * once}, Fault::doubled};
+             std::move(scene), ratio < 1e3 ? 400u : 1000u, Exact{once, 3 * sigma * once}, Fault::doubled};
     row.rare = ratio > 1e3;
     rows.push_back(std::move(row));
   }
