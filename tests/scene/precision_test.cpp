@@ -29,9 +29,10 @@ TEST_CASE("a mean free path below 1e-5 of the object's half size is named, in an
     CHECK(warnings_of(mesh, Rgb(2 * sigma), transform).size() == 1);
   }
   CHECK(warnings_of(SphereShape{}, Rgb(0), {}).empty());
-  CHECK(warnings_of(SphereShape{}, Rgb(1e6), {}) ==
-        std::vector<std::string>{"object 'body': a mean free path of 1e-06 of its half size is finite but not "
-                                 "accurate: single precision needs 1e-5 or more"});
+  CHECK(
+      warnings_of(SphereShape{}, Rgb(1e6), {}) ==
+      std::vector<std::string>{"object 'body': a mean free path of 1e-06 of its half size is finite but not "
+                               "accurate: single precision needs 1e-5 or more"});
 }
 
 TEST_CASE("an opaque object has no mean free path") {

@@ -7,9 +7,9 @@
 
 namespace meander {
 
-/// The cube [-1, 1]^3. Each of its edges about z is cut into `along` pieces, so that the four sides consist of
-/// pairs of triangles across them, and its two ends are fans about their middles, of 4 * `around` triangles
-/// that share one vertex.
+/// The cube [-1, 1]^3. Each of its edges about z is cut into `along` pieces, so that the four sides consist
+/// of pairs of triangles across them, and its two ends are fans about their middles, of 4 * `around`
+/// triangles that share one vertex.
 [[nodiscard]] Mesh make_cube(int around = 1, int along = 1);
 
 /// The prism between z = -1 and 1 over a convex polygon, given counter-clockwise as seen from +z; its ends

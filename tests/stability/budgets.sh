@@ -92,6 +92,25 @@ for crop in 2040,2040,2056,2056 4080,4080,4096,4096; do
   "$meander" render large.toml --quiet --spp 16 --crop $crop -o out/crop.exr --stats crop.json || fail "--crop $crop of 4096 x 4096"
   python3 -c "import json; run = json.load(open('crop.json')); assert all(abs(v - 1) < 1e-5 for v in run['mean']), run" || fail "--crop $crop"
 done
+# What cannot be right is said in one line, and the image is there.
+says() {
+  local wanted=$1 message
+  shift
+  message=$("$meander" "$@" --spp 4 --width 8 --height 8 -o out/said.exr --stats said.json 2>&1) || fail "$*: $message"
+  [[ $(grep -c 'meander: warning: ' <<<"$message") -eq 1 && $message == *"meander: warning: $wanted"* ]] || fail "$* says: $message"
+  [[ $(value said.json non_finite) == 0 && -s out/said.exr ]] || fail "$*: $(cat said.json)"
+}
+says "object 'ball': a mean free path of 2e-06 of its half size is finite but not accurate" render denser.toml
+{
+  cat dense.toml
+  printf '[[object]]\nname = "kernel"\nshape = "sphere"\nmaterial = "m"\ntransform = { scale = 0.5 }\n'
+} >nested.toml
+says "objects 'ball' and 'kernel' overlap" render nested.toml --set material.m.mean_free_path=0.5
+says "objects 'ball' and 'kernel' overlap" render nested.toml --set material.m.mean_free_path=0.5 --set object.kernel.transform.translate=[1.2,0,0] --walk scalar
+status=0
+message=$("$meander" render dense.toml --spp 1 --width 8 --height 8 -o out/said.exr 2>&1) || status=$?
+[[ $status -eq 0 && $message != *warning* ]] || fail "a mean free path of 2e-4: $message"
+
 said="a film of one pixel and crops of 4096 x 4096"
 
 if [[ $large == --large ]]; then

@@ -28,9 +28,11 @@ struct InDouble {};
 struct Same {
   Scene scene;
 };
-/// Nothing is known: values are finite, and stated beside `value`.
+/// Out of what single precision can do, or unknown: values are finite, and stated beside `value` or a walk in
+/// double precision.
 struct Stated {
   double value = 0;
+  bool in_double = false;
 };
 
 /// What is done to a case for its test to fail: albedo 2 % lower, sigma_t twice as high or a thousandth, a
@@ -47,9 +49,9 @@ struct Case {
   Fault fault = Fault::albedo;
   double offset = 0;  // what is stated is scale * (value - offset)
   double scale = 1;
-  bool leaks = false;     // walks must be lost, and are counted; elsewhere none may be
-  bool overlaps = false;  // a warning names the bodies; elsewhere there is none
-  bool inaccurate = false;  // a warning says so; elsewhere there is none
+  bool leaks = false;          // walks must be lost, and are counted; elsewhere none may be
+  bool overlaps = false;       // a warning names the bodies; elsewhere there is none
+  bool inaccurate = false;     // a warning says so; elsewhere there is none
   std::uint64_t long_spp = 8;  // times as many samples in the long run
   bool rare = false;           // events are so rare that the quick run would not see its fault
 };

@@ -58,8 +58,7 @@ ConvexBody body_of(const Object& object) {
   const Mesh mesh = given ? **given : make_cube();
   for (const Triangle& t : mesh.triangles) {
     const DVec3 a = map * mesh.positions[t[0]];
-    const DVec3 across =
-        glm::cross(map * mesh.positions[t[1]] - a, map * mesh.positions[t[2]] - a);
+    const DVec3 across = glm::cross(map * mesh.positions[t[1]] - a, map * mesh.positions[t[2]] - a);
     const DVec3 normal = glm::normalize(across);
     const double offset = glm::dot(normal, a + body.center);
     const auto same = [&](const Plane& plane) {

@@ -37,10 +37,12 @@ Readings reference_of(const Case& row) {
     for (Reading& reading : readings[kWhole])
       reading = {row.offset + exact->value / row.scale, exact->error / std::abs(row.scale)};
   const auto pixels = static_cast<std::uint64_t>(row.scene.film.width * row.scene.film.height);
-  if (std::holds_alternative<InDouble>(row.oracle)) return double_walk(row.scene, row.spp * pixels);
+  const auto* stated = std::get_if<Stated>(&row.oracle);
+  if (std::holds_alternative<InDouble>(row.oracle) || (stated && stated->in_double))
+    return double_walk(row.scene, row.spp * pixels);
   if (const auto* same = std::get_if<Same>(&row.oracle))
     return readings_of(rendered(make_job(same->scene, 2), 2 * row.spp, WalkCode::batch, 3).film);
-  if (const auto* stated = std::get_if<Stated>(&row.oracle))
+  if (stated)
     for (Reading& reading : readings[kWhole]) reading.value = stated->value;
   if (std::holds_alternative<Furnace>(row.oracle))
     for (Reading& reading : readings[kWhole]) reading = {1, std::get<Furnace>(row.oracle).tolerance};

@@ -8,8 +8,8 @@ namespace meander {
 
 /// What one walk makes of a case.
 struct Verdict {
-  Reading stated;         // of the whole, first channel; of a furnace the value furthest from 1
-  double deviation = 0;   // the worst z, or that value less 1
+  Reading stated;        // of the whole, first channel; of a furnace the value furthest from 1
+  double deviation = 0;  // the worst z, or that value less 1
   std::uint64_t leaked = 0;
   std::uint64_t walks = 0;
   std::uint64_t non_finite = 0;
@@ -17,8 +17,8 @@ struct Verdict {
 };
 
 struct Outcome {
-  Reading held;  // the reference
-  std::array<Verdict, 2> verdicts;  // scalar, lanes
+  Reading held;                      // the reference
+  std::array<Verdict, 2> verdicts;   // scalar, lanes
   std::vector<std::string> reasons;  // of failure
 };
 

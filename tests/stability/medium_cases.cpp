@@ -17,7 +17,8 @@ Scene turned_cube(const Shape& shape, const TranslucentMaterial& material) {
   return scene;
 }
 
-// What a ball takes of the light that its disc receives: what is missing in the picture, per area of the disc.
+// What a ball takes of the light that its disc receives: what is missing in the picture, per area of the
+// disc.
 void state_absorbed(Case& row) {
   row.offset = 1;
   row.scale = -kHeight * kHeight / glm::pi<double>();
@@ -41,9 +42,13 @@ void add_albedo_cases(std::vector<Case>& rows) {
   // So little is absorbed that it goes with the mean path 4V/S, up to a part of 5.3 (1 - albedo) 10^2 at an
   // optical radius of 50 (the rows of f1_sphere_iso.csv at 0.9999 and 0.999).
   const double lost = 1 - double{static_cast<Real>(1 - 1e-6)};
-  Case almost{group, "1 - 1e-6 ball, absorbed", "(1 - albedo) sigma_t 4V/S",
-              white_surround(SphereShape{}, {grey(0.02, 1 - 1e-6), Boundary::matched, 1, 0}, kHeight), 300,
-              Exact{lost * 50 * 4 / 3 * (1 - 530 * lost), 50 * lost * 1e-3}, Fault::doubled};
+  Case almost{group,
+              "1 - 1e-6 ball, absorbed",
+              "(1 - albedo) sigma_t 4V/S",
+              white_surround(SphereShape{}, {grey(0.02, 1 - 1e-6), Boundary::matched, 1, 0}, kHeight),
+              300,
+              Exact{lost * 50 * 4 / 3 * (1 - 530 * lost), 50 * lost * 1e-3},
+              Fault::doubled};
   state_absorbed(almost);
   rows.push_back(std::move(almost));
 }
@@ -72,26 +77,38 @@ void add_path_cases(std::vector<Case>& rows) {
   const std::string group = "mean free path";
   for (const double ratio : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
     const TranslucentMaterial material{grey(2 * ratio, 0.9), Boundary::matched, 1, 0};
-    Case ball{group, text(ratio) + " ball, absorbed", "a walk in double precision",
-              white_surround(SphereShape{}, material, kHeight), 300, InDouble{}};
+    Case ball{group,
+              text(ratio) + " ball, absorbed",
+              "a walk in double precision",
+              white_surround(SphereShape{}, material, kHeight),
+              300,
+              InDouble{}};
     state_absorbed(ball);
     rows.push_back(std::move(ball));
     rows.push_back({group, text(ratio) + " cube mesh", "a walk in double precision",
                     turned_cube(shape_of(make_cube(4, 4)), material), 250, InDouble{}});
   }
   for (const double ratio : {1e1, 1e2}) {
-    Case ball{group, text(ratio) + " ball, absorbed", "unscattered fraction",
-              white_surround(SphereShape{}, {grey(2 * ratio, 0), Boundary::matched, 1, 0}, kHeight), 1000,
-              Exact{absorbed_by_ball(0.5 / ratio), 0, true}, Fault::doubled};
+    Case ball{group,
+              text(ratio) + " ball, absorbed",
+              "unscattered fraction",
+              white_surround(SphereShape{}, {grey(2 * ratio, 0), Boundary::matched, 1, 0}, kHeight),
+              1000,
+              Exact{absorbed_by_ball(0.5 / ratio), 0, true},
+              Fault::doubled};
     state_absorbed(ball);
     rows.push_back(std::move(ball));
   }
   // Where one pass rarely collides the light is kept inside: the mean path under ior 4 is 16 times 4V/S.
   for (const double ratio : {1e4, 1e6}) {
     const double absorbed = 16 * 4.0 / 3 * 0.5 / ratio;
-    Case ball{group, text(ratio) + " ball of ior 4, absorbed", "ior^2 sigma_t 4V/S",
+    Case ball{group,
+              text(ratio) + " ball of ior 4, absorbed",
+              "ior^2 sigma_t 4V/S",
               white_surround(SphereShape{}, {grey(2 * ratio, 0), Boundary::diffuse, 4, 0}, kHeight),
-              ratio < 1e5 ? 500u : 200u, Exact{absorbed, absorbed * absorbed, true}, Fault::doubled};
+              ratio < 1e5 ? 500u : 200u,
+              Exact{absorbed, absorbed * absorbed, true},
+              Fault::doubled};
     state_absorbed(ball);
     ball.rare = ratio > 1e5;
     if (ball.rare) ball.long_spp = 150;
@@ -104,8 +121,13 @@ void add_path_cases(std::vector<Case>& rows) {
     scene.environment.radiance = Rgb(0);
     scene.lights.push_back({"sun", DirectionalLight{{-1, 0, 0}, Rgb(static_cast<Real>(ratio))}, false});
     const double once = 0.8 / (4 * glm::pi<double>()) * 0.5 * 2;
-    Case row{group, text(ratio) + " cube mesh lit from the side", "single scattering, per sigma_t 4V/S",
-             std::move(scene), ratio < 1e3 ? 400u : 1000u, Exact{once, 3 * sigma * once}, Fault::doubled};
+    Case row{group,
+             text(ratio) + " cube mesh lit from the side",
+             "single scattering, per sigma_t 4V/S",
+             std::move(scene),
+             ratio < 1e3 ? 400u : 1000u,
+             Exact{once, 3 * sigma * once},
+             Fault::doubled};
     row.rare = ratio > 1e3;
     rows.push_back(std::move(row));
   }
@@ -149,8 +171,9 @@ void add_shortest_paths(std::vector<Case>& rows) {
     add(of + "cube mesh", turned_cube(cube, white));
     add(of + "knot", white_surround(knot, white, 2.2));
   }
-  Case absorbing{group, "cube mesh, albedo 0.9", "half-space, stated", face_of(shape_of(make_cube(4, 4)), 1e-6),
-                 100, Stated{face_value()}, Fault::diluted};
+  Case absorbing{
+      group, "cube mesh, albedo 0.9", "half-space, stated", face_of(shape_of(make_cube(4, 4)), 1e-6),
+      100,   Stated{face_value()},    Fault::diluted};
   absorbing.inaccurate = true;
   rows.push_back(std::move(absorbing));
 }
@@ -163,12 +186,13 @@ void add_channel_cases(std::vector<Case>& rows) {
   const TranslucentMaterial even{medium_from_albedo(DVec3(0.9), paths, 0), Boundary::matched, 1, 0};
   const TranslucentMaterial uneven{medium_from_albedo({0.99, 0.3, 0.95}, paths, 0.7), Boundary::matched, 1,
                                    0};
-  const TranslucentMaterial white{medium_from_albedo(DVec3(1), {2, 0.02, 0.0002}, 0), Boundary::matched, 1, 0};
+  const TranslucentMaterial white{medium_from_albedo(DVec3(1), {2, 0.02, 0.0002}, 0), Boundary::matched, 1,
+                                  0};
   add("ball", white_surround(SphereShape{}, even, kHeight), 300);
   add("ball of uneven albedo", white_surround(SphereShape{}, uneven, kHeight), 300);
   add("cube mesh of uneven albedo", turned_cube(shape_of(make_cube(4, 4)), uneven), 150);
-  rows.push_back({"sigma ratio 1e4", "white ball", "1", white_surround(SphereShape{}, white, kHeight), 10,
-                  Exact{1, 0}});
+  rows.push_back(
+      {"sigma ratio 1e4", "white ball", "1", white_surround(SphereShape{}, white, kHeight), 10, Exact{1, 0}});
 }
 
 }  // namespace

@@ -53,8 +53,13 @@ void add_overlaps(std::vector<Case>& rows) {
       Scene scene = white_surround(first, one, 3.6);
       scene.materials.push_back({"other", other});
       scene.objects.push_back({"second", second, 1, transform});
-      Case row{"overlapping, nested", name + (white ? ", white" : ""),
-               white ? "furnace, and a warning" : "finite, and a warning", scene, 20, Furnace{}, Fault::apart};
+      Case row{"overlapping, nested",
+               name + (white ? ", white" : ""),
+               white ? "furnace, and a warning" : "finite, and a warning",
+               scene,
+               20,
+               Furnace{},
+               Fault::apart};
       if (!white) row.oracle = Stated{};
       row.overlaps = true;
       rows.push_back(std::move(row));
@@ -77,8 +82,9 @@ void add_open_cases(std::vector<Case>& rows) {
       Scene scene = white_surround(shape_of(open), material, 3.6);
       scene.objects[0].transform.rotate = {20, 30, 40};
       const std::string name = boundary == Boundary::matched ? "matched cube mesh" : "diffuse cube mesh";
-      Case row{"open mesh", name + (white ? ", white" : ""), white ? "furnace" : "finite", scene, 50, Furnace{},
-               Fault::closed};
+      Case row{
+          "open mesh",  name + (white ? ", white" : ""), white ? "furnace" : "finite", scene, 50, Furnace{},
+          Fault::closed};
       if (!white) row.oracle = Stated{};
       row.leaks = true;
       rows.push_back(std::move(row));
@@ -94,9 +100,10 @@ void add_cameras_inside(std::vector<Case>& rows) {
     rows.push_back({"camera inside", names[i], kInDouble, scene, 150, InDouble{}});
     for (const Boundary boundary : {Boundary::diffuse, Boundary::dielectric}) {
       scene.materials[0] = {"m", TranslucentMaterial{grey(0.4, 1, 0.3), boundary, 1.4, 0}};
-      rows.push_back({"camera inside",
-                      std::string(names[i]) + (boundary == Boundary::diffuse ? ", white diffuse" : ", white dielectric"),
-                      "furnace", scene, 10, Furnace{}});
+      rows.push_back(
+          {"camera inside",
+           std::string(names[i]) + (boundary == Boundary::diffuse ? ", white diffuse" : ", white dielectric"),
+           "furnace", scene, 10, Furnace{}});
     }
   }
 }

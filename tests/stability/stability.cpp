@@ -1,9 +1,9 @@
 // The suite of numerical stability:
 //   stability                 quick, a few seconds
 //   stability --long          more samples
-//   stability --self-test     a case of each group with each of its faults planted, which must be found; with --long all
-//   stability --table F.csv   writes the table as well
-//   stability --only TEXT     the cases with that in their group or name
+//   stability --self-test     a case of each group with each of its faults planted, which must be found; with
+//   --long all stability --table F.csv   writes the table as well stability --only TEXT     the cases with
+//   that in their group or name
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -76,8 +76,8 @@ int run_all(const std::vector<Case>& rows, const Options& options) {
       ++failures;
     }
   }
-  std::printf("%zu cases by both walks, |z| up to %.2f allowed, %.1f s of rendering, %d failures\n", rows.size(),
-              threshold, seconds, failures);
+  std::printf("%zu cases by both walks, |z| up to %.2f allowed, %.1f s of rendering, %d failures\n",
+              rows.size(), threshold, seconds, failures);
   return failures > 0;
 }
 
