@@ -22,6 +22,12 @@ constexpr double kMessageSeconds = 6;
 constexpr float kBackdrop = 0.105f;  // around the picture
 constexpr int kSettleFrames = 3;     // Dear ImGui needs some frames to come to rest
 
+std::vector<FileStamp> shader_stamps() {
+  std::vector<FileStamp> stamps;
+  for (const std::string& file : shader_files()) stamps.push_back(stamp_before_reading(file));
+  return stamps;
+}
+
 // Everything that an image depends on, as text: what the display does with it is left out.
 std::string trace_text(const PreviewState& state) {
   std::string text = state.history.now().text();
@@ -41,7 +47,8 @@ std::string trace_text(const PreviewState& state) {
 }  // namespace
 
 Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions options, float scale)
-    : gl_(&gl),
+    : shader_stamps_(shader_stamps()),
+      gl_(&gl),
       state_(std::move(document)),
       options_(std::move(options)),
       interface_(scale),
@@ -57,7 +64,7 @@ Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions
     state_.tell(MessageKind::warning, warning);
   clipboard_ = {[] { return std::string(); }, [](const std::string&) {}};
   files_.watch(state_.history.now().watched_files());
-  shaders_.watch(shader_files());
+  shaders_.watch(shader_stamps_);
   submitted_ = trace_text(state_);
   submit(false);
 }
@@ -164,32 +171,38 @@ std::uint64_t Previewer::tell_error(const Error& error) {
   return state_.messages.back().id;
 }
 
-// The scene file as it now is on disk, with the edits of the command line.
-void Previewer::reload_scene() {
+// The scene file as it now is on disk, with the edits of the command line. Unless it was asked for, nothing
+// where the file says what it said when it was read or saved here: edits since then stay.
+void Previewer::reload_scene(bool asked) {
   frames_due_ = kSettleFrames;
   state_.withdraw(scene_error_);
+  refused_files_.clear();
+  const SceneDocument& now = state_.history.now();
   try {
-    SceneDocument fresh = state_.history.now().reopened();
+    SceneDocument fresh = now.reopened();
+    if (!asked && fresh == state_.original) return;
     for (const std::string& edit : options_.edits) fresh.apply(edit);
-    if (fresh.text() == state_.history.now().text()) return;  // as after it was saved here
+    if (fresh == now || (!asked && fresh == state_.original)) return;
     state_.change(std::move(fresh));
     state_.settle();
+    state_.withdraw(part_error_);
     state_.tell(MessageKind::note, "reloaded the scene");
   } catch (const Error& error) {
     scene_error_ = tell_error(error);
+    refused_files_ = now.reopened_files();
   }
 }
 
 // Meshes and pictures as they now are on disk; what was edited stays.
 void Previewer::reload_parts() {
   frames_due_ = kSettleFrames;
-  state_.withdraw(scene_error_);
+  state_.withdraw(part_error_);
   try {
     state_.resolve();
     submit(false);
     state_.tell(MessageKind::note, "reloaded what changed on disk");
   } catch (const Error& error) {
-    scene_error_ = tell_error(error);
+    part_error_ = tell_error(error);
   }
 }
 
@@ -208,14 +221,22 @@ void Previewer::reload_shaders() {
 void Previewer::watch_files(double now) {
   if (!options_.watches_files || now - last_watch_ < kWatchSeconds) return;
   last_watch_ = now;
-  files_.watch(state_.history.now().watched_files());
+  const std::vector<FileStamp> files = state_.history.now().watched_files();
+  const std::string scene = files.front().path;
+  // A scene that was refused is read again when anything that it names changes.
+  if (!refused_files_.empty() && refused_files_.front().path != scene) refused_files_.clear();
+  const bool refused = !refused_files_.empty();
+  std::vector<FileStamp> all = files;
+  all.insert(all.end(), refused_files_.begin(), refused_files_.end());
+  files_.watch(all);
   const std::vector<std::string> changed = files_.changed();
   // A bare mesh in the studio is a part like any other.
-  const std::filesystem::path scene = state_.history.now().path();
-  const bool scene_file = scene.extension() == ".toml" &&
-                          std::find(changed.begin(), changed.end(), scene.string()) != changed.end();
-  if (changed.size() > (scene_file ? 1 : 0)) reload_parts();
-  if (scene_file) reload_scene();
+  const bool is_text = std::filesystem::path(scene).extension() == ".toml";
+  const auto has_changed = [&](const FileStamp& file) {
+    return std::find(changed.begin(), changed.end(), file.path) != changed.end();
+  };
+  if (std::any_of(files.begin() + (is_text ? 1 : 0), files.end(), has_changed)) reload_parts();
+  if ((is_text && has_changed(files.front())) || (refused && !changed.empty())) reload_scene(false);
   if (!shaders_.changed().empty()) reload_shaders();
 }
 
@@ -336,7 +357,7 @@ void Previewer::carry_out(const Command& command) {
       session_->set_paused(paused_);
     } else if (command.kind == CommandKind::reload) {
       reload_parts();
-      reload_scene();
+      reload_scene(true);
       reload_shaders();
     } else if (command.kind == CommandKind::threads) {
       state_.settings.threads = static_cast<int>(command.index);
@@ -350,8 +371,6 @@ void Previewer::carry_out(const Command& command) {
       const auto& after = state_.settings.budget;
       if (before.spp != after.spp || before.error != after.error || before.seconds != after.seconds)
         session_->set_budget(after);
-      if (command.kind == CommandKind::save || command.kind == CommandKind::save_scene)
-        files_.wrote(state_.history.now().path());
     }
   } catch (const Error& error) {
     state_.tell(MessageKind::error, error.what());

@@ -71,7 +71,7 @@ class Previewer {
   void submit_if_changed(double now);
   void submit(bool interactive);
   void watch_files(double now);
-  void reload_scene();
+  void reload_scene(bool asked);
   void reload_parts();
   std::uint64_t tell_error(const Error& error);
   void reload_shaders();
@@ -88,6 +88,7 @@ class Previewer {
   [[nodiscard]] FilmPlacement place_film(const PreviewSurface& surface) const;
   void draw_interface_over(const PreviewSurface& surface);
 
+  std::vector<FileStamp> shader_stamps_;  // of before they were read: the members below do
   const Functions* gl_;
   PreviewState state_;
   PreviewOptions options_;
@@ -101,8 +102,10 @@ class Previewer {
   ClipboardAccess clipboard_;
   FileWatch files_;
   FileWatch shaders_;
-  std::uint64_t scene_error_ = 0;   // the message that the scene file does not read, until it does
-  std::uint64_t shader_error_ = 0;  // likewise of the shaders
+  std::vector<FileStamp> refused_files_;  // that the scene file names which could not be read again
+  std::uint64_t scene_error_ = 0;         // the message that the scene file does not read, until it does
+  std::uint64_t part_error_ = 0;          // likewise a mesh or a picture
+  std::uint64_t shader_error_ = 0;        // likewise of the shaders
   Layout layout_;
   Area film_area_;  // the film's picture in the window, points of the interface
   float pointer_scale_ = 1;

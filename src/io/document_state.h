@@ -15,6 +15,7 @@ struct DocumentState {
   toml::table table;
   std::string path;
   std::string comment;  // the leading lines of the file that begin with #, each with its end of line
+  FileStamp stamp{};    // of the file before it was read
 };
 
 /// The parsed scene file at `path`, or the built-in studio about a bare mesh file. Errors: Error with the

@@ -9,20 +9,24 @@ namespace {
 constexpr std::size_t kOldMeshes = 6;  // kept besides those of the scene that was read last
 constexpr std::size_t kPictures = 3;
 
-// Of a file that is not there, whatever the file system says of it: reading it will say more.
-FileStamp stamp_of(const std::string& path) {
-  std::error_code failed;
-  FileStamp stamp{path, std::filesystem::last_write_time(path, failed), 0};
-  stamp.bytes = std::filesystem::file_size(path, failed);
+}  // namespace
+
+// A file that is not there has no stamp either: reading it will say more.
+FileStamp SceneCache::about_to_read(const std::string& path) {
+  FileStamp stamp = stamp_before_reading(path);
+  stamps_.insert_or_assign(path, stamp);
   return stamp;
 }
 
-}  // namespace
+FileStamp SceneCache::stamp(const std::string& path) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = stamps_.find(path);
+  return found == stamps_.end() ? FileStamp{path} : found->second;
+}
 
 std::shared_ptr<const CachedMesh> SceneCache::mesh(const std::string& path, bool z_up) {
   const std::lock_guard lock(mutex_);
-  // Stamped before it is read: a file that changes in between is read again the next time.
-  const MeshKey key{stamp_of(path), z_up};
+  const MeshKey key{about_to_read(path), z_up};
   if (const auto* found = meshes_.find(key)) return *found;
   MeshFile file = load_mesh(path, z_up);
   auto cached = std::make_shared<CachedMesh>();
@@ -31,7 +35,7 @@ std::shared_ptr<const CachedMesh> SceneCache::mesh(const std::string& path, bool
   cached->volume = signed_volume(file.mesh);
   cached->report = file.report;
   cached->mesh = std::make_shared<const Mesh>(std::move(file.mesh));
-  return meshes_.add(key, std::move(cached));
+  return key.file.is_there() ? meshes_.add(key, std::move(cached)) : cached;
 }
 
 std::shared_ptr<const Mesh> SceneCache::torus_knot() {
@@ -52,9 +56,12 @@ std::shared_ptr<const EnvironmentImage> SceneCache::turned(Surround& surround, d
 std::shared_ptr<const EnvironmentImage> SceneCache::picture(const std::string& path, double rotation,
                                                             double scale) {
   const std::lock_guard lock(mutex_);
-  const FileStamp key = stamp_of(path);
+  const FileStamp key = about_to_read(path);
   Surround* found = pictures_.find(key);
-  if (!found) return pictures_.add(key, {rotation, scale, load_environment(path, rotation, scale)}).image;
+  if (!found) {
+    Surround loaded{rotation, scale, load_environment(path, rotation, scale)};
+    return key.is_there() ? pictures_.add(key, std::move(loaded)).image : loaded.image;
+  }
   try {
     return turned(*found, rotation, scale);
   } catch (const Error& error) {
@@ -64,7 +71,7 @@ std::shared_ptr<const EnvironmentImage> SceneCache::picture(const std::string& p
 
 std::shared_ptr<const EnvironmentImage> SceneCache::sky(Sky sky, double rotation, double scale) {
   const std::lock_guard lock(mutex_);
-  const FileStamp key{std::string(kSkyNames[static_cast<std::size_t>(sky)]), {}, 0};
+  const FileStamp key{std::string(kSkyNames[static_cast<std::size_t>(sky)])};
   Surround* found = skies_.find(key);
   if (!found) found = &skies_.add(key, {0, 1, std::make_shared<const EnvironmentImage>(make_sky(sky))});
   return turned(*found, rotation, scale);

@@ -2,14 +2,14 @@
 // shapes and surrounds, colour maps.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/file_stamp.h"
 #include "io/mesh_file.h"
 #include "medium/color_maps.h"
 #include "scene/environment_image.h"
@@ -23,15 +23,6 @@ struct CachedMesh {
   MeshReport report;
   double size = 0;    // the diagonal of its bounds
   double volume = 0;  // enclosed
-};
-
-/// A file at one time: another time or size means that it changed.
-struct FileStamp {
-  std::string path;
-  std::filesystem::file_time_type time;
-  std::uintmax_t bytes = 0;
-
-  bool operator==(const FileStamp&) const = default;
 };
 
 /// Values by key, the ones used last at the end.
@@ -62,7 +53,8 @@ class RecentValues {
   std::vector<std::pair<Key, Value>> entries_;
 };
 
-/// The same object for the same file until the file changes, for the same shape always. Any thread may ask.
+/// The same object for the same file until the file changes, for the same shape always; a file that was
+/// written just now (is_settled) is read anew until it has rested. Any thread may ask.
 class SceneCache {
  public:
   /// As load_mesh.
@@ -73,6 +65,9 @@ class SceneCache {
                                                                 double scale);
   [[nodiscard]] std::shared_ptr<const EnvironmentImage> sky(Sky sky, double rotation, double scale);
   [[nodiscard]] ColorMaps& color_maps() noexcept { return color_maps_; }
+  /// Of a mesh or a picture, taken before it was asked for last, whether it could be read or not; that of no
+  /// file where it was never asked for.
+  [[nodiscard]] FileStamp stamp(const std::string& path) const;
 
   /// Called after a scene with this many meshes was read: forgets files that have long not been used.
   void trim(std::size_t meshes);
@@ -91,10 +86,12 @@ class SceneCache {
   };
   using Surrounds = RecentValues<FileStamp, Surround>;
 
+  [[nodiscard]] FileStamp about_to_read(const std::string& path);
   [[nodiscard]] static std::shared_ptr<const EnvironmentImage> turned(Surround& surround, double rotation,
                                                                       double scale);
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
+  std::map<std::string, FileStamp> stamps_;
   RecentValues<MeshKey, std::shared_ptr<const CachedMesh>> meshes_;
   std::shared_ptr<const Mesh> torus_knot_;
   Surrounds pictures_;

@@ -77,15 +77,30 @@ void SceneDocument::move_to(const std::string& target_path) {
   DocumentState next = *state_;
   rebase_files(next.table, next.path, target_path);
   next.path = target_path;
+  next.stamp = {target_path};
   adopt(std::move(next));
 }
 
 const std::string& SceneDocument::path() const { return state_->path; }
 
-std::vector<std::string> SceneDocument::watched_files() const {
-  std::vector<std::string> files = files_of(state_->table, state_->path);
-  std::erase(files, state_->path);
-  files.insert(files.begin(), state_->path);
+std::vector<FileStamp> SceneDocument::watched_files() const { return files_of_state(*state_); }
+
+std::vector<FileStamp> SceneDocument::reopened_files() const {
+  try {
+    return files_of_state(open_document(path(), *cache_));
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+std::vector<FileStamp> SceneDocument::files_of_state(const DocumentState& state) const {
+  std::vector<FileStamp> files{state.stamp};
+  for (const std::string& file : files_of(state.table, state.path)) {
+    if (file == state.path)
+      files.front() = cache_->stamp(file);  // a bare mesh
+    else
+      files.push_back(cache_->stamp(file));
+  }
   return files;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file_stamp.h"
 #include "io/scene_file.h"
 #include "scene/environment_description.h"
 #include "scene/material_description.h"
@@ -49,8 +50,12 @@ class SceneDocument {
 
   /// Of the scene file, or of the bare mesh file that was opened.
   [[nodiscard]] const std::string& path() const;
-  /// The scene file and every mesh and picture that it names, each once.
-  [[nodiscard]] std::vector<std::string> watched_files() const;
+  /// The scene file and every mesh and picture that it names, each once, as they were before they were read
+  /// last: what has another stamp now has changed since. That of no file where that cannot be told.
+  [[nodiscard]] std::vector<FileStamp> watched_files() const;
+  /// The same of the scene file as it is on disk now, which may be one that cannot be read for the sake of a
+  /// file that it names. Empty when it is no scene file at all.
+  [[nodiscard]] std::vector<FileStamp> reopened_files() const;
 
   /// An orthographic camera is written without its field of view.
   void set_camera(const Camera& camera);
@@ -81,6 +86,7 @@ class SceneDocument {
  private:
   SceneDocument(std::shared_ptr<const DocumentState> state, std::shared_ptr<SceneCache> cache);
   void adopt(DocumentState&& state);  // once it reads
+  [[nodiscard]] std::vector<FileStamp> files_of_state(const DocumentState& state) const;
 
   std::shared_ptr<const DocumentState> state_;
   std::shared_ptr<SceneCache> cache_;

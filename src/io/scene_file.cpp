@@ -53,7 +53,7 @@ bool is_scene_file(const std::string& path) {
 
 DocumentState parse_document(const std::string& text, const std::string& path) {
   try {
-    return {toml::parse(text, path), path, leading_comment(text)};
+    return {toml::parse(text, path), path, leading_comment(text), {path}};
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
     throw Error(Place{path, static_cast<int>(begin.line), static_cast<int>(begin.column)},
@@ -62,7 +62,12 @@ DocumentState parse_document(const std::string& text, const std::string& path) {
 }
 
 DocumentState open_document(const std::string& path, SceneCache& cache) {
-  if (is_scene_file(path)) return parse_document(read_text(path), path);
+  if (is_scene_file(path)) {
+    FileStamp stamp = stamp_before_reading(path);
+    DocumentState state = parse_document(read_text(path), path);
+    state.stamp = std::move(stamp);
+    return state;
+  }
   const auto cached = cache.mesh(path, false);
   return parse_document(studio_text(*cached->mesh, std::filesystem::path(path).filename().string()), path);
 }

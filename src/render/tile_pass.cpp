@@ -31,14 +31,21 @@ struct SamplePlace {
   std::uint64_t k;
 };
 
-// A sample of a pixel, but for what its ray meets.
-BatchSample sample_at(const TilePass& pass, const SamplePlace& at) noexcept {
-  BatchSample sample;
+// A sample of a pixel, but for its ray and what that meets; returns the place on the film that it goes
+// through.
+glm::dvec2 begin_sample(const TilePass& pass, const SamplePlace& at, BatchSample& sample) noexcept {
   sample.random = sample_stream(pass.job, at.x, at.y, at.k);
   const double u = sample.random.next();
   const double v = sample.random.next();
-  sample.start.ray = film_ray(pass.job, pass.camera, at.x + u, at.y + v);
   if (pass.options.chromatic) sample.start.hero = sample_hero(pass.job, at.x, at.y, at.k);
+  return {at.x + u, at.y + v};
+}
+
+// A sample of a pixel, but for what its ray meets.
+BatchSample sample_at(const TilePass& pass, const SamplePlace& at) noexcept {
+  BatchSample sample;
+  const glm::dvec2 on_film = begin_sample(pass, at, sample);
+  sample.start.ray = film_ray(pass.job, pass.camera, on_film.x, on_film.y);
   return sample;
 }
 
@@ -77,19 +84,25 @@ struct TileSamples {
     const FilmPlace& at = pixels[sample / count];
     return {pass.area.x0 + at.x, pass.area.y0 + at.y, first + sample % count};
   }
-  // They are made some at a time, so that the divisions and roots of one do not wait for those of another.
-  [[nodiscard]] bool next(BatchSample& sample) noexcept {
-    if (drawn == found.size()) return false;
+  [[nodiscard]] const BatchSample* next() noexcept {
+    if (drawn == found.size()) return nullptr;
     const std::size_t in_row = drawn % kTogether;
-    if (in_row == 0) {
-      const std::size_t count_ahead = std::min(kTogether, found.size() - drawn);
-      for (std::size_t i = 0; i < count_ahead; ++i) ahead[i] = sample_at(pass, place(drawn + i));
-      for (std::size_t i = 0; i < count_ahead; ++i)
-        ahead[i].start.hit = pass.job.geometry->closest_hit(ahead[i].start.ray);
+    if (in_row == 0) draw_together();
+    ahead[in_row].number = drawn++;
+    return &ahead[in_row];
+  }
+  // Some at a time and step by step, so that the divisions and roots of one do not wait for those of another.
+  void draw_together() noexcept {
+    const std::size_t count_ahead = std::min(kTogether, found.size() - drawn);
+    std::array<glm::dvec2, kTogether> on_film;
+    for (std::size_t i = 0; i < count_ahead; ++i) {
+      const SamplePlace at = place(drawn + i);
+      on_film[i] = begin_sample(pass, at, ahead[i]);
     }
-    sample = ahead[in_row];
-    sample.number = drawn++;
-    return true;
+    for (std::size_t i = 0; i < count_ahead; ++i)
+      ahead[i].start.ray = film_ray(pass.job, pass.camera, on_film[i].x, on_film[i].y);
+    for (std::size_t i = 0; i < count_ahead; ++i)
+      ahead[i].start.hit = pass.job.geometry->closest_hit(ahead[i].start.ray);
   }
   void done(std::size_t sample, const SampleSink& sink) noexcept { found[sample] = sink; }
 };

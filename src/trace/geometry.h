@@ -72,9 +72,9 @@ class Geometry {
   [[nodiscard]] bool is_finished() const;
   [[nodiscard]] bool finish(const std::atomic<bool>& stop) const;
 
-  /// f(world) with the object's own World.
+  /// f(world) with the object's own World. Errors: whatever f throws.
   template <class F>
-  [[nodiscard]] auto with_body(std::size_t object, F&& f) const noexcept {
+  [[nodiscard]] auto with_body(std::size_t object, F&& f) const {
     return std::visit([&](const auto& shape) { return f(world_of(shape)); }, bodies_[object].shape);
   }
 

@@ -20,7 +20,13 @@ struct Entry {
   std::uint32_t packet;
 };
 
-// Adds the cells that a triangle, in cells, reaches.
+std::uint32_t number_of(const glm::ivec3& cell, const glm::ivec3& size) {
+  const int brick = ((cell.z / 4) * (size.y / 4) + cell.y / 4) * (size.x / 4) + cell.x / 4;
+  return static_cast<std::uint32_t>(brick * 64 + ((cell.z & 3) * 4 + (cell.y & 3)) * 4 + (cell.x & 3));
+}
+
+// Adds the cells that a triangle, in cells, reaches: column after column along the axis that its plane is
+// steepest to, of which it reaches but a few cells.
 void list_cells(const glm::vec3 (&corner)[3], const glm::ivec3& size, std::vector<std::uint32_t>& cells) {
   const glm::vec3 low = glm::min(corner[0], glm::min(corner[1], corner[2])) - kSlack;
   const glm::vec3 high = glm::max(corner[0], glm::max(corner[1], corner[2])) + kSlack;
@@ -29,16 +35,28 @@ void list_cells(const glm::vec3 (&corner)[3], const glm::ivec3& size, std::vecto
   const DVec3 start(corner[0]);
   const DVec3 normal = glm::cross(DVec3(corner[1]) - start, DVec3(corner[2]) - start);
   const DVec3 steepness = glm::abs(normal);
+  const int w =
+      steepness.x > steepness.y ? (steepness.x > steepness.z ? 0 : 2) : (steepness.y > steepness.z ? 1 : 2);
+  const int u = (w + 1) % 3;
+  const int v = (w + 2) % 3;
   // How far the plane may be from the middle of a cell that it reaches.
   const double reach = (0.5 + double{kSlack}) * (steepness.x + steepness.y + steepness.z);
-  for (int z = first.z; z <= last.z; ++z)
-    for (int y = first.y; y <= last.y; ++y)
-      for (int x = first.x; x <= last.x; ++x) {
-        const DVec3 middle = DVec3(x, y, z) + 0.5;
-        if (std::abs(glm::dot(normal, middle - start)) > reach) continue;
-        const int brick = ((z / 4) * (size.y / 4) + y / 4) * (size.x / 4) + x / 4;
-        cells.push_back(static_cast<std::uint32_t>(brick * 64 + ((z & 3) * 4 + (y & 3)) * 4 + (x & 3)));
+  for (int i = first[u]; i <= last[u]; ++i)
+    for (int j = first[v]; j <= last[v]; ++j) {
+      const double rest = normal[u] * (i + 0.5 - start[u]) + normal[v] * (j + 0.5 - start[v]);
+      int k = first[w];
+      int end = last[w];
+      if (steepness[w] > 0) {
+        const double plane = start[w] - 0.5 - rest / normal[w];
+        k = std::max(k, static_cast<int>(std::ceil(plane - reach / steepness[w])));
+        end = std::min(end, static_cast<int>(std::floor(plane + reach / steepness[w])));
       }
+      glm::ivec3 cell;
+      for (cell[u] = i, cell[v] = j; k <= end; ++k) {
+        cell[w] = k;
+        cells.push_back(number_of(cell, size));
+      }
+    }
 }
 
 // What each packet reaches, packet after packet; nothing when that is more than `most`.

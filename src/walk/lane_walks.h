@@ -42,8 +42,8 @@ class LaneWalks {
       : set_(set), world_(world), model_(model), client_(client) {}
 
   /// Runs until the client has no walk left; false when it said stop, which is asked whenever rays are
-  /// traced, and every kStopInterval steps at least.
-  [[nodiscard]] bool run() noexcept {
+  /// traced, and every kStopInterval steps at least. Errors: whatever the client throws.
+  [[nodiscard]] bool run() {
     for (int lane = 0; lane < kLanes; ++lane) {
       lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);
       Walker walker;
@@ -55,7 +55,10 @@ class LaneWalks {
       if (client_.stop()) return false;
       advance_lanes(set_, model_, lanes_, kLanes, kLanes - in_use_ + std::min(kRestingLanes, in_use_));
       find_resting();
-      if constexpr (kTogether) begin_rays();
+      if constexpr (kTogether)
+        begin_rays();
+      else
+        cross_together();
       for (int i = 0; i < resting_count_; ++i) see_to(resting_[i]);
       give_balls();
     }
@@ -113,6 +116,10 @@ class LaneWalks {
     return {lanes_.position[0][lane], lanes_.position[1][lane], lanes_.position[2][lane]};
   }
 
+  [[nodiscard]] Vec3 direction(int lane) const noexcept {
+    return {lanes_.direction[0][lane], lanes_.direction[1][lane], lanes_.direction[2][lane]};
+  }
+
   // Rays are begun for all resting lanes together where the world can, part by part, so that one does not
   // wait for what another waits for.
   static constexpr bool kTogether = requires(const W& world, const Vec3& p, Real t) {
@@ -157,6 +164,17 @@ class LaneWalks {
           world_.begin_crossing(rays[i].origin, rays[i].direction, rays[i].distance, hints[i]);
   }
 
+  // Steps that leave an exact body, one after another, so that the roots and divisions of one do not wait for
+  // those of another.
+  void cross_together() noexcept {
+    for (int i = 0; i < resting_count_; ++i) {
+      const int lane = resting_[i];
+      if (lanes_.state[lane] != static_cast<std::uint32_t>(LaneState::crossing)) continue;
+      begun_[lane] = world_.first_crossing(Vec3(position(lane)), direction(lane), distance_of(lane));
+      ++counters_.rays;
+    }
+  }
+
   // Of a lane's step. Where the hero channel does not collide, the kernel divides 0 by 0 once in 2^24 steps.
   [[nodiscard]] Real distance_of(int lane) const noexcept {
     const Real distance(lanes_.distance[lane]);
@@ -166,7 +184,7 @@ class LaneWalks {
   // The first part of a long step is often in balls, and all of some.
   [[nodiscard]] LaneRay ray_of(int lane) noexcept {
     const Vec3 p(position(lane));
-    const Vec3 d(lanes_.direction[0][lane], lanes_.direction[1][lane], lanes_.direction[2][lane]);
+    const Vec3 d = direction(lane);
     const Real distance = distance_of(lane);
     const EmptyBalls* balls = model_.region.balls;
     Real clear = 0;
@@ -185,12 +203,11 @@ class LaneWalks {
       crossing.distance += clear_[lane];
       return crossing;
     } else {
-      ++counters_.rays;
-      return world_.first_crossing(walker.position, walker.direction, distance);
+      return begun_[lane];
     }
   }
 
-  void see_to(int lane) noexcept {
+  void see_to(int lane) {
     const auto state = static_cast<LaneState>(lanes_.state[lane]);
     if constexpr (kTallies) {
       client_.tally(lane, Real(lanes_.path[lane]), Real(lanes_.absorbed[lane]));
@@ -205,7 +222,7 @@ class LaneWalks {
   }
 
   // Ends a step that needed a ray; true when it ended in a collision that the walk survived.
-  [[nodiscard]] bool cross(int lane, Walker& walker, Random& random) noexcept {
+  [[nodiscard]] bool cross(int lane, Walker& walker, Random& random) {
     const Crossing crossing = finish_ray(lane, walker);
     if constexpr (kTallies) {
       const Real carried = walker.weight.carried().x;
@@ -232,7 +249,7 @@ class LaneWalks {
     return true;
   }
 
-  void end(int lane, const WalkResult& result, Walker& walker, Random& random) noexcept {
+  void end(int lane, const WalkResult& result, Walker& walker, Random& random) {
     if (client_.end(lane, result, walker, random)) {
       put(lane, walker, random, false);
       return;
@@ -252,9 +269,9 @@ class LaneWalks {
     if constexpr (kTogether)
       return typename W::Begun{};
     else
-      return char{};
+      return Crossing{};
   }
-  decltype(begun_kind()) begun_[kTogether ? kLanes : 1];
+  decltype(begun_kind()) begun_[kLanes];
   Real clear_[kLanes] = {};  // of each crossing lane's step, the part that balls answer for
   int resting_[kLanes + 1] = {};
   int resting_count_ = 0;

@@ -25,12 +25,12 @@ struct BatchSample {
   Random random{{1, 0, 0, 0}};
 };
 
-/// Where a batch has its samples from and where they go. next: a sample to begin; false when none is left.
-/// done: all that the sample found.
+/// Where a batch has its samples from and where they go. next: a sample to begin, which stands until the next
+/// one is asked for; nullptr when none is left. done: all that the sample found.
 template <class C, class S>
-concept SampleSource = requires(C& source, BatchSample& sample, const S& sink) {
-  { source.next(sample) } -> std::same_as<bool>;
-  source.done(sample.number, sink);
+concept SampleSource = requires(C& source, std::size_t number, const S& sink) {
+  { source.next() } -> std::same_as<const BatchSample*>;
+  source.done(number, sink);
 };
 
 /// Traces all the samples of a source, each into a sink of its own. What a sample finds depends on nothing
@@ -45,7 +45,7 @@ class PathBatch {
         source_(source),
         waiting_(scene.objects.size()) {}
 
-  /// False when it was interrupted.
+  /// False when it was interrupted. Errors: std::bad_alloc, and whatever the source throws.
   [[nodiscard]] bool run(InstructionSet set) {
     for (;;) {
       const auto longest = std::ranges::max_element(waiting_, {}, &std::vector<Slot*>::size);
@@ -118,13 +118,13 @@ class PathBatch {
     if (interrupted_) return false;
     if (free_.empty()) free_.push_back(&slots_.emplace_back());
     Slot& slot = *free_.back();
-    BatchSample sample;
-    if (!source_.next(sample)) return false;
+    const BatchSample* sample = source_.next();
+    if (!sample) return false;
     free_.pop_back();
-    slot.sample = sample.number;
-    slot.random = sample.random;
+    slot.sample = sample->number;
+    slot.random = sample->random;
     slot.sink = {};
-    settle(slot, tracer_.begin(slot.path, sample.start, slot.random, slot.sink));
+    settle(slot, tracer_.begin(slot.path, sample->start, slot.random, slot.sink));
     return true;
   }
 

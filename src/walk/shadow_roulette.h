@@ -25,14 +25,14 @@ class ShadowRoulette {
   /// What the next ray counts, 0 where it is not traced. `worth` >= 0.
   [[nodiscard]] Real draw(Real worth) noexcept {
     const Real p = std::min(worth / kShadowThreshold, Real(1));
-    sum_ += p;
+    sum_ += double{p};
     if (sum_ < 1) return 0;
     sum_ -= 1;
     return 1 / p;
   }
 
  private:
-  Real sum_ = 0;
+  double sum_ = 0;  // of single precision it would lose what is below 2^-25
 };
 
 /// The largest channel of what a path may bring to a light from a collision, over what one without any

@@ -17,15 +17,22 @@ void write(const std::string& file, const std::string& text) { std::ofstream(fil
 
 void settle() { std::this_thread::sleep_for(std::chrono::milliseconds(40)); }
 
+// The stamp of a file that was written so many seconds after an hour ago.
+FileStamp set_time(const std::string& file, int seconds) {
+  fs::last_write_time(
+      file, fs::file_time_type::clock::now() - std::chrono::hours(1) + std::chrono::seconds(seconds));
+  return stamp_of(file);
+}
+
 }  // namespace
 
 TEST_CASE("a watched file is reported once when it changes, and not while it is gone") {
   const TemporaryFolder folder;
   const std::string file = folder.at("a.toml");
   write(file, "one");
-  FileWatch watch;
-  watch.watch({file, folder.at("missing")});
   settle();
+  FileWatch watch;
+  watch.watch({stamp_of(file), stamp_of(folder.at("missing"))});
   CHECK(watch.changed().empty());
   write(file, "longer");
   settle();
@@ -36,14 +43,49 @@ TEST_CASE("a watched file is reported once when it changes, and not while it is 
   write(file, "back again");
   settle();
   CHECK(watch.changed() == std::vector<std::string>{file});
-  write(file, "our own words");
+  write(folder.at("missing"), "here now");
   settle();
-  watch.wrote(file);
-  watch.wrote("never watched");
-  CHECK(watch.changed().empty());
+  CHECK(watch.changed() == std::vector<std::string>{folder.at("missing")});
   write(file, "unseen by the next list");
   settle();
   watch.watch({});
+  CHECK(watch.changed().empty());
+}
+
+TEST_CASE("what changes between the reading of a file and its watch is reported") {
+  const TemporaryFolder folder;
+  const std::string file = folder.at("a.toml");
+  write(file, "one");
+  const FileStamp read = set_time(file, 0);
+  set_time(file, 1);
+  FileWatch watch;
+  watch.watch({read});
+  CHECK(watch.changed() == std::vector<std::string>{file});
+  watch.watch({read});  // as of a document that knows nothing of the change
+  CHECK(watch.changed().empty());
+  FileWatch other;
+  other.watch({FileStamp{file}});  // read when it was not settled
+  CHECK(other.changed() == std::vector<std::string>{file});
+}
+
+TEST_CASE("who goes back to a file that was watched before is told what has changed since, and no more") {
+  const TemporaryFolder folder;
+  const std::string file = folder.at("a.toml");
+  write(file, "one");
+  const FileStamp first = set_time(file, 0);
+  FileWatch watch;
+  watch.watch({first});
+  set_time(file, 1);
+  CHECK(watch.changed().size() == 1);
+  watch.watch({});
+  watch.watch({first});  // an old reading, by undo: its change has been told
+  CHECK(watch.changed().empty());
+  watch.watch({});
+  set_time(file, 2);
+  watch.watch({first});
+  CHECK(watch.changed().size() == 1);
+  watch.watch({});
+  watch.watch({set_time(file, 3)});  // a new reading
   CHECK(watch.changed().empty());
 }
 
@@ -53,7 +95,7 @@ TEST_CASE(
   const std::string file = folder.at("a.toml");
   write(file, "0000");
   FileWatch watch;
-  watch.watch({file});
+  watch.watch({stamp_before_reading(file)});
   settle();
   std::string reported = "0000";
   std::string last;

@@ -2,7 +2,6 @@
 // decides.
 #pragma once
 
-
 #include <array>
 #include <filesystem>
 #include <fstream>

@@ -219,7 +219,7 @@ TEST_CASE("environments take each other's place") {
   CHECK(document.text().find("rotation = 30\nscale = 3\nvisible = false") != std::string::npos);
   document.set_environment_image(grey);
   CHECK(up_radiance(document) == Real(0.5));
-  CHECK(document.watched_files() == std::vector<std::string>{kKnot, grey});
+  CHECK(watched(document) == std::vector<std::string>{kKnot, grey});
   document.apply("environment.scale=2");
   CHECK(up_radiance(document) == 1);
   document.set_environment_image(plane_picture(folder, "bright.exr", 2));

@@ -27,6 +27,13 @@ inline std::string tetrahedron(double size) {
   return "v 0 0 0\nv " + s + " 0 0\nv 0 0 " + s + "\nv 0 " + s + " 0\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
 }
 
+// The names of the files to watch.
+inline std::vector<std::string> watched(const SceneDocument& document) {
+  std::vector<std::string> names;
+  for (const FileStamp& file : document.watched_files()) names.push_back(file.path);
+  return names;
+}
+
 using MeshPointer = std::shared_ptr<const Mesh>;
 
 inline const Object& object_named(const Scene& scene, const std::string& name) {

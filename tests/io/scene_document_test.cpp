@@ -111,7 +111,7 @@ TEST_CASE("a file that changes on disk is read anew, and is watched") {
                "[[object]]\nname = \"body\"\nmesh = \"body.obj\"\nmaterial = \"a\"\n"
                "[[object]]\nmesh = \"body.obj\"\nup_axis = \"z\"\nmaterial = \"a\"\n");
   const SceneDocument document = SceneDocument::open(folder.at("scene.toml"));
-  CHECK(document.watched_files() == std::vector<std::string>{folder.at("scene.toml"), folder.at("body.obj")});
+  CHECK(watched(document) == std::vector<std::string>{folder.at("scene.toml"), folder.at("body.obj")});
   const SceneFile before = document.scene();
   CHECK(mesh_of(before.scene, "body") != mesh_of(before.scene, "object2"));
   folder.write("body.obj", tetrahedron(25));
@@ -121,7 +121,7 @@ TEST_CASE("a file that changes on disk is read anew, and is watched") {
   fs::remove(folder.at("body.obj"));
   CHECK_THROWS_AS((void)document.scene(), Error);
   const SceneDocument bare = SceneDocument::open(kSoapMesh);
-  CHECK(bare.watched_files() == std::vector<std::string>{kSoapMesh});
+  CHECK(watched(bare) == std::vector<std::string>{kSoapMesh});
   CHECK(bare.path() == kSoapMesh);
 }
 

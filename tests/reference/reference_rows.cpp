@@ -1,8 +1,9 @@
-// Runs rows of the reference tables through `measure` and holds the z-scores to what chance allows: the
-// largest |z| to the Sidak bound of the family at level 1e-3, the mean of z^2 (first value of each run) to
-// within 4 sqrt(2 / N) of 1.
+// Runs rows of the reference tables through `measure`, with both walks and independent random numbers, and
+// holds the z-scores of each walk against the table, and of one walk against the other, to what chance
+// allows: the largest |z| to the Sidak bound of the family at level 1e-3, the mean of z^2 (first value of
+// each run) to within 4 sqrt(2 / N) of 1.
 //
-//   reference_rows                      every seventh row at a relative standard error of 1 %
+//   reference_rows                      every seventh row at a relative standard error of 1 %, scalar 2 %
 //   reference_rows --all                every row at 0.2 %; z_scores.csv is written as rows end
 //   reference_rows --all --resume       keeps the rows that the file already has
 //   reference_rows --rows TEXT          only the rows whose name contains TEXT, at 0.2 %; no file
@@ -33,11 +34,15 @@ struct Options {
   bool resume = false;
   std::string rows;
   int threads = hardware_threads();
-  [[nodiscard]] double target() const { return all || !rows.empty() ? 0.002 : 0.01; }
+  [[nodiscard]] bool is_spread() const { return !all && rows.empty(); }
+  [[nodiscard]] double target(WalkCode walk) const {
+    return !is_spread() ? 0.002 : walk == WalkCode::batch ? 0.01 : 0.02;
+  }
 };
 
 struct Score {
   std::string name;
+  std::string walk;
   std::string quantity;
   double exact = 0;
   double measured = 0;
@@ -51,6 +56,10 @@ struct Score {
 const std::string kFile = std::string(MEANDER_SOURCE_DIR) + "/tests/reference/z_scores.csv";
 constexpr std::uint64_t kPilot = 20000;
 constexpr int kFewRuns = 20;
+constexpr std::size_t kMostRows = 1000;  // seeds of scalar walks begin beyond
+constexpr WalkCode kWalks[] = {WalkCode::batch, WalkCode::scalar};
+
+std::string name_of(WalkCode walk) { return walk == WalkCode::batch ? "batch" : "scalar"; }
 
 Options parse(int argc, char** argv) {
   Options o;
@@ -93,16 +102,18 @@ std::uint64_t walks_for(MeasureJob job, const std::vector<Expected>& expected, d
   return static_cast<std::uint64_t>(std::max(needed, static_cast<double>(kPilot)));
 }
 
-// Rows share no random numbers, pilots neither: the scores of different rows are independent.
-std::vector<Score> run_case(ReferenceCase c, std::size_t index, const Options& options) {
+// Rows and walks share no random numbers, pilots neither: all scores are independent.
+std::vector<Score> run_case(ReferenceCase c, std::size_t index, WalkCode walk, const Options& options) {
   const std::atomic<bool> stop{false};
+  if (walk == WalkCode::scalar) index += kMostRows;
   c.job.threads = options.threads;
   c.job.seed = 2 * index + 1;
-  c.job.walks = walks_for(c.job, c.expected, options.target());
+  c.job.walks = walks_for(c.job, c.expected, options.target(walk));
+  c.job.walk = walk;
   c.job.seed = 2 * index;
   Measurement m = measure(c.job, stop);
   // Where the pilot was too hopeful the same walks go on.
-  while (coarsest_total(m, c.expected) > options.target()) {
+  while (coarsest_total(m, c.expected) > options.target(walk)) {
     c.job.walks += c.job.walks / 4;
     m = measure(c.job, stop);
   }
@@ -114,17 +125,17 @@ std::vector<Score> run_case(ReferenceCase c, std::size_t index, const Options& o
     // What does not vary (nothing but a specular sum) must be right to single precision, and has no z^2.
     const double error = std::max(q.standard_error(), 1e-6 * e.value);
     const bool counts = &e == &c.expected[0] && error == q.standard_error();
-    scores.push_back(
-        {c.name, e.quantity, e.value, q.mean, error, (q.mean - e.value) / error, walks, counts, e.settles});
+    scores.push_back({c.name, name_of(walk), e.quantity, e.value, q.mean, error, (q.mean - e.value) / error,
+                      walks, counts, e.settles});
   }
   return scores;
 }
 
 void write(std::ofstream& file, const Score& s) {
   char line[400];
-  std::snprintf(line, sizeof line, "%s,%s,%.12g,%.9g,%.3g,%.3g,%.3f,%.0f,%d,%d\n", s.name.c_str(),
-                s.quantity.c_str(), s.exact, s.measured, s.error, s.error / s.exact, s.z, s.walks, s.first,
-                s.settles);
+  std::snprintf(line, sizeof line, "%s,%s,%s,%.12g,%.9g,%.3g,%.3g,%.3f,%.0f,%d,%d\n", s.name.c_str(),
+                s.walk.c_str(), s.quantity.c_str(), s.exact, s.measured, s.error, s.error / s.exact, s.z,
+                s.walks, s.first, s.settles);
   file << line << std::flush;
 }
 
@@ -132,14 +143,14 @@ std::vector<Score> read_scores() {
   std::vector<Score> scores;
   const CsvTable t = read_csv(kFile);
   for (std::size_t i = 0; i < t.rows.size(); ++i)
-    scores.push_back({t.text(i, "row"), t.text(i, "quantity"), t.number(i, "exact"), t.number(i, "measured"),
-                      t.number(i, "standard_error"), t.number(i, "z"), t.number(i, "walks"),
-                      t.number(i, "first") != 0, t.number(i, "total") != 0});
+    scores.push_back({t.text(i, "row"), t.text(i, "walk"), t.text(i, "quantity"), t.number(i, "exact"),
+                      t.number(i, "measured"), t.number(i, "standard_error"), t.number(i, "z"),
+                      t.number(i, "walks"), t.number(i, "first") != 0, t.number(i, "total") != 0});
   return scores;
 }
 
-// The verdict on the whole family; true when it passes.
-bool report(const std::vector<Score>& scores, double target) {
+// The verdict on one family; true when it passes.
+bool judge(const char* family, const std::vector<Score>& scores, double target) {
   double worst = 0;
   double squares = 0;
   int runs = 0;
@@ -155,11 +166,40 @@ bool report(const std::vector<Score>& scores, double target) {
   // The width is that of a normal law, which the mean of a few squares does not follow.
   const bool passed = worst < bound && (runs < kFewRuns || std::abs(squares / runs - 1) < width);
   std::printf(
-      "%zu values of %d runs: largest |z| %.2f (bound %.2f), mean of z^2 %.3f (1 +- %.3f), %d totals above "
-      "%.1f %% relative standard error: %s\n",
-      scores.size(), runs, worst, bound, squares / runs, width, coarse, 100 * target,
+      "%s: %zu values of %d runs: largest |z| %.2f (bound %.2f), mean of z^2 %.3f (1 +- %.3f), %d totals "
+      "short of %.1f %%: %s\n",
+      family, scores.size(), runs, worst, bound, squares / runs, width, coarse, 100 * target,
       passed ? "passed" : "FAILED");
   return passed;
+}
+
+// What both walks scored, as batch less scalar. A score that only one of them has (few unscattered walks in
+// the other) is left out.
+std::vector<Score> differences(const std::vector<Score>& batch, const std::vector<Score>& scalar) {
+  std::vector<Score> scores;
+  for (const Score& b : batch) {
+    const auto s = std::find_if(scalar.begin(), scalar.end(), [&](const Score& other) {
+      return other.name == b.name && other.quantity == b.quantity;
+    });
+    if (s == scalar.end()) continue;
+    Score d = b;
+    d.error = std::hypot(b.error, s->error);
+    d.z = (b.measured - s->measured) / d.error;
+    d.first = b.first && s->first;
+    d.settles = false;
+    scores.push_back(d);
+  }
+  return scores;
+}
+
+bool report(const std::vector<Score>& scores, const Options& options) {
+  std::vector<Score> batch;
+  std::vector<Score> scalar;
+  for (const Score& s : scores) (s.walk == "batch" ? batch : scalar).push_back(s);
+  const bool exact = judge("lanes", batch, options.target(WalkCode::batch));
+  const bool oracle = judge("scalar walks", scalar, options.target(WalkCode::scalar));
+  return judge("lanes less scalar walks", differences(batch, scalar), options.target(WalkCode::scalar)) &&
+         exact && oracle;
 }
 
 bool run(const Options& options) {
@@ -170,24 +210,29 @@ bool run(const Options& options) {
   std::ofstream file;
   if (keep) file.open(kFile, options.resume ? std::ios::app : std::ios::trunc);
   if (keep && !options.resume)
-    file << "row,quantity,exact,measured,standard_error,relative_standard_error,z,walks,first,total\n";
-  const bool spread = !options.all && options.rows.empty();
+    file << "row,walk,quantity,exact,measured,standard_error,relative_standard_error,z,walks,first,total\n";
   const Timer timer;
-  for (std::size_t i = 0; i < cases.size(); i += spread ? 7 : 1) {
+  const auto is_done = [&](const std::string& name, WalkCode walk) {
+    return std::any_of(scores.begin(), scores.end(),
+                       [&](const Score& s) { return s.name == name && s.walk == name_of(walk); });
+  };
+  for (std::size_t i = 0; i < cases.size(); i += options.is_spread() ? 7 : 1) {
     const std::string& name = cases[i].name;
     if (name.find(options.rows) == std::string::npos) continue;
-    if (std::any_of(scores.begin(), scores.end(), [&](const Score& s) { return s.name == name; })) continue;
-    for (const Score& s : run_case(cases[i], i, options)) {
-      if (keep) write(file, s);
-      if (!spread)
-        std::printf("%zu/%zu %s %s: z %.2f, %.0f walks, %.1f s\n", i + 1, cases.size(), name.c_str(),
-                    s.quantity.c_str(), s.z, s.walks, timer.seconds());
-      scores.push_back(s);
+    for (const WalkCode walk : kWalks) {
+      if (is_done(name, walk)) continue;
+      for (const Score& s : run_case(cases[i], i, walk, options)) {
+        if (keep) write(file, s);
+        if (!options.is_spread())
+          std::printf("%zu/%zu %s %s %s: z %.2f, %.0f walks, %.1f s\n", i + 1, cases.size(), name.c_str(),
+                      s.walk.c_str(), s.quantity.c_str(), s.z, s.walks, timer.seconds());
+        scores.push_back(s);
+      }
     }
     std::fflush(stdout);
   }
   if (scores.empty()) throw std::runtime_error("no row is called " + options.rows);
-  return report(scores, options.target());
+  return report(scores, options);
 }
 
 }  // namespace

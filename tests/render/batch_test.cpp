@@ -10,6 +10,7 @@
 #include "render/small_scene.h"
 #include "render/tile_pass.h"
 #include "stats/image_error.h"
+#include "walk/path_batch.h"
 
 using namespace meander;
 
@@ -62,11 +63,39 @@ Rendering oracle_of(const Job& job, std::uint64_t spp) {
   return oracle;
 }
 
+// Samples all over a film, of which some later one cannot be had.
+struct FailingSource {
+  const CameraRays& camera;
+  const Geometry& geometry;
+  int left = 3000;
+  BatchSample sample = {};
+  [[nodiscard]] const BatchSample* next() {
+    if (left == 0) throw std::bad_alloc();
+    sample.random = stream(1, 0, static_cast<std::uint32_t>(left--));
+    sample.start.ray = camera.at(sample.random.next(), sample.random.next());
+    sample.start.hit = geometry.closest_hit(sample.start.ray);
+    return &sample;
+  }
+  static void done(std::size_t, const RadianceSink&) {}
+};
+
 bool same_bytes(const Film& a, const Film& b) {
   return std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Pixel)) == 0;
 }
 
 }  // namespace
+
+TEST_CASE("memory that runs out among lanes is an exception, not the end of the process") {
+  const Job job = make_job(mixed_scene(), 1);
+  const std::atomic<bool> stop{false};
+  REQUIRE(prepare_walks(job, stop));
+  PathTracer<Geometry> tracer(*job.scene, *job.geometry, path_options(job, stop));
+  const CameraRays camera = camera_of(job);
+  FailingSource source{camera, *job.geometry};
+  PathBatch<Geometry, RadianceSink, FailingSource> batch(*job.scene, *job.geometry, tracer, source);
+  CHECK_THROWS_AS((void)batch.run(job.instruction_set), std::bad_alloc);
+  CHECK(tracer.counters().walks > 128);
+}
 
 TEST_CASE("lanes render what scalar paths render, sample by sample, on every instruction set") {
   for (const bool crowded : {false, true}) {

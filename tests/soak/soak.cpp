@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <thread>
 
 #include "core/error.h"
@@ -19,6 +21,11 @@ constexpr double kAlike = 0.75;    // of the film's pixels: messages and handles
 
 void write_at_once(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 // The part of the pixels within the placement whose levels agree within one.
@@ -70,8 +77,12 @@ std::string Soak::edited_text() {
   return document.text();
 }
 
-// Saved whole, broken, or in two halves with frames between; in the end it is whole and what is shown.
+// Saved whole, broken, or in two halves with frames between, now and then as soon as it was opened; in the
+// end it is whole and what is shown.
 void Soak::rewrite_scene() {
+  if (whole(0, 3) == 0)
+    storm_.carry_out(
+        {CommandKind::open, 0, 0, {}, folder_.at(whole(0, 1) == 0 ? "scene.toml" : "other.toml")});
   const std::string path = state().history.now().path();
   if (!path.ends_with(".toml")) return;
   std::string text;
@@ -80,7 +91,10 @@ void Soak::rewrite_scene() {
   } catch (const Error&) {
     return;  // a medium of which no g can be set
   }
+  if (text == text_of(path)) return;  // no change, which the previewer need not notice
   const int kind = whole(0, 2);
+  CAPTURE(path);
+  CAPTURE(kind);
   if (kind == 1) {
     const std::string before = state().history.now().text();
     write_at_once(path, "[camera\n" + text);
@@ -97,7 +111,11 @@ void Soak::rewrite_scene() {
     for (int i = whole(1, 80); i > 0; --i) storm_.frame();
   }
   write_at_once(path, text);
-  CHECK(wait_until([&] { return state().history.now().text() == text; }));
+  const bool read = wait_until([&] { return state().history.now().text() == text; });
+  CAPTURE(text);
+  CAPTURE(state().history.now().path());
+  CAPTURE(state().history.now().text());
+  CHECK(read);
   ++reloads;
 }
 

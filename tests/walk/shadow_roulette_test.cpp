@@ -36,6 +36,13 @@ TEST_CASE("every shadow ray counts 1 on average, and as many are traced as their
   }
 }
 
+TEST_CASE("rays of the least worth add up as well") {
+  ShadowRoulette roulette(Real(0.5));
+  const Real worth = kShadowThreshold * Real(0x1p-30);
+  for (int i = 0; i < 1000; ++i) CHECK(roulette.draw(worth) == 0);
+  CHECK(roulette.draw(kShadowThreshold * (Real(0.5) - Real(0x1p-21))) > 0);
+}
+
 TEST_CASE("what a walk carries to a light fades with the depth, per channel, and is 1 without a history") {
   PathWeight weight;
   CHECK(most_carried(weight, Rgb(1, 2, 3), 0) == 1);
