@@ -16,11 +16,14 @@ std::vector<std::string> precision_warnings(const Scene& scene) {
     const Bounds bounds = world_bounds(object);
     const DVec3 half = 0.5 * (bounds.high - bounds.low);
     const double ratio = 1 / (sigma * std::max({half.x, half.y, half.z}));
-    if (!(ratio < kLeastMeanFreePath * (1 - 1e-6))) continue;  // 1e-5 itself, as it is rounded, is enough
-    char text[24];
-    std::snprintf(text, sizeof text, "%.2g", ratio);
-    warnings.push_back("object '" + object.name + "': a mean free path of " + text +
-                       " of its half size is finite but not accurate: single precision needs 1e-5 or more");
+    if (!(ratio < kLeastMeanFreePath * (1 - 1e-6)))
+      continue;  // the least itself, as it is rounded, is enough
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "a mean free path of %.2g of its half size is finite but not accurate: single precision "
+                  "needs %.2g or more",
+                  ratio, kLeastMeanFreePath);
+    warnings.push_back("object '" + object.name + "': " + text);
   }
   return warnings;
 }

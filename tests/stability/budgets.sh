@@ -34,6 +34,9 @@ TOML
 }
 scene 0.0002 64 >dense.toml
 scene 0.000002 64 >denser.toml
+# A path that a glass cube never lets out, from a camera within it; it has a collision in 10^12 walks.
+scene 1e12 64 | sed -e 's/look_from.*/look_from = [0.1, 0.2, 0.3]/' -e 's/look_at.*/look_at = [1.1, 1.2, 1.3]/' \
+  -e 's/orthographic.*/vertical_fov = 10/' -e 's/"sphere"/"box"/' -e 's/^albedo.*/&\nboundary = "dielectric"\nior = 1.5/' >trap.toml
 scene 0.5 1 >pixel.toml
 scene 0.5 4096 >large.toml
 
@@ -78,6 +81,7 @@ too_short() {
 for walk in batch scalar; do
   kept dense.toml 1 --walk $walk --width 16 --height 16
   too_short denser.toml 0.3 1500 --walk $walk
+  too_short trap.toml 0.3 1500 --walk $walk
 done
 
 # One pixel, and a corner and the middle of 4096 x 4096, by both doors; the furnace is 1.

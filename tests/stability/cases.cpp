@@ -42,6 +42,9 @@ Scene with_fault(Scene scene, Fault fault) {
     case Fault::doubled:
       edit_media(scene, [](Medium& medium) { medium.sigma_t *= Real(2); });
       break;
+    case Fault::dense:
+      edit_media(scene, [](Medium& medium) { medium.sigma_t *= Real(1e4); });
+      break;
     case Fault::diluted:
       edit_media(scene, [](Medium& medium) { medium.sigma_t *= Real(1e-3); });
       break;

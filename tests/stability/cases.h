@@ -35,9 +35,10 @@ struct Stated {
   bool in_double = false;
 };
 
-/// What is done to a case for its test to fail: albedo 2 % lower, sigma_t twice as high or a thousandth, a
-/// triangle of the mesh dropped, the body 5 % of its size aside, the hole closed, or the bodies apart.
-enum class Fault { albedo, doubled, diluted, triangle, aside, closed, apart };
+/// What is done to a case for its test to fail: albedo 2 % lower, sigma_t twice, 10^4 times or a thousandth
+/// of what it was, a triangle of the mesh dropped, the body 5 % of its size aside, the hole closed, or the
+/// bodies apart.
+enum class Fault { albedo, doubled, dense, diluted, triangle, aside, closed, apart };
 
 struct Case {
   std::string group;
@@ -49,11 +50,11 @@ struct Case {
   Fault fault = Fault::albedo;
   double offset = 0;  // what is stated is scale * (value - offset)
   double scale = 1;
-  bool leaks = false;          // walks must be lost, and are counted; elsewhere none may be
-  bool overlaps = false;       // a warning names the bodies; elsewhere there is none
-  bool inaccurate = false;     // a warning says so; elsewhere there is none
-  std::uint64_t long_spp = 8;  // times as many samples in the long run
-  bool rare = false;           // events are so rare that the quick run would not see its fault
+  bool leaks = false;           // walks must be lost, and are counted; elsewhere none may be
+  bool overlaps = false;        // a warning names the bodies; elsewhere there is none
+  bool inaccurate = false;      // a warning says so; elsewhere there is none
+  std::uint64_t long_spp = 16;  // times as many samples in the long run
+  bool rare = false;            // events are so rare that the quick run sees a gross fault only
 };
 
 /// `rows` grows by the cases of media, of shapes, and of whole scenes and films.

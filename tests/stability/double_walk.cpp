@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 
+#include "render/parallel.h"
 #include "stability/bodies.h"
 #include "stats/moments.h"
 
@@ -72,10 +73,11 @@ ConvexBody body_of(const Object& object) {
 
 class DoubleWalk {
  public:
-  explicit DoubleWalk(const Scene& scene)
+  DoubleWalk(const Scene& scene, std::uint64_t seed)
       : scene_(scene),
         body_(body_of(scene.objects[0])),
-        medium_(std::get<TranslucentMaterial>(scene.materials[scene.objects[0].material].kind).medium) {
+        medium_(std::get<TranslucentMaterial>(scene.materials[scene.objects[0].material].kind).medium),
+        random_(seed) {
     forward_ = glm::normalize(scene.camera.look_at - scene.camera.look_from);
     right_ = glm::normalize(glm::cross(forward_, scene.camera.up));
     up_ = glm::cross(right_, forward_);
@@ -142,7 +144,7 @@ class DoubleWalk {
   DVec3 forward_;
   DVec3 right_;
   DVec3 up_;
-  std::mt19937_64 random_{20261126};
+  std::mt19937_64 random_;
   std::uniform_real_distribution<double> uniform_{0, 1};
 };
 
@@ -156,16 +158,16 @@ bool knows_double_walk(const Scene& scene) {
 }
 
 Readings double_walk(const Scene& scene, std::uint64_t samples) {
-  DoubleWalk walk(scene);
   Readings readings;
-  for (auto* region = readings.data(); region != readings.data() + kWhole; ++region)
+  parallel_for(2, kWhole, [&](std::size_t quarter) {
+    DoubleWalk walk(scene, 20261126 + quarter);
     for (int c = 0; c < (walk.grey() ? 1 : 3); ++c) {
       Moments moments;
-      const auto quarter = static_cast<std::size_t>(region - readings.data());
       for (std::uint64_t i = 0; i < samples / kWhole; ++i) moments.add(walk.sample(quarter, c));
-      (*region)[static_cast<std::size_t>(c)] = {moments.mean, moments.standard_error()};
-      if (walk.grey()) region->fill(region->front());
+      readings[quarter][static_cast<std::size_t>(c)] = {moments.mean, moments.standard_error()};
     }
+    if (walk.grey()) readings[quarter].fill(readings[quarter].front());
+  });
   fill_whole(readings);
   return readings;
 }

@@ -19,16 +19,16 @@ struct Verdict {
 struct Outcome {
   Reading held;                      // the reference
   std::array<Verdict, 2> verdicts;   // scalar, lanes
+  std::string warning;               // what the program warns of: an overlap, precision, or nothing
   std::vector<std::string> reasons;  // of failure
 };
 
 /// How many z one walk of a case is judged by.
 [[nodiscard]] std::size_t z_count(const Case& row);
 
+/// Renders the case with both walks, and in lanes with its fault planted in it, which must then fail: a case
+/// that cannot is a reason of failure as well.
 [[nodiscard]] Outcome judge(const Case& row, double threshold);
-
-/// Whether the case, walked in lanes, fails with its fault planted in it and held against what it was.
-[[nodiscard]] bool finds_fault(const Case& row, double threshold);
 
 [[nodiscard]] std::string table_heading();
 [[nodiscard]] std::string table_row(const Case& row, const Outcome& outcome);
