@@ -37,6 +37,12 @@ scene 0.000002 64 >denser.toml
 # A path that a glass cube never lets out, from a camera within it; it has a collision in 10^12 walks.
 scene 1e12 64 | sed -e 's/look_from.*/look_from = [0.1, 0.2, 0.3]/' -e 's/look_at.*/look_at = [1.1, 1.2, 1.3]/' \
   -e 's/orthographic.*/vertical_fov = 10/' -e 's/"sphere"/"box"/' -e 's/^albedo.*/&\nboundary = "dielectric"\nior = 1.5/' >trap.toml
+# A path that goes to and fro between the walls of a white room and a ball in it, in short walks.
+{
+  scene 1e6 64 | sed -e 's/look_from.*/look_from = [0.9, 0.9, 0.9]/' -e 's/orthographic.*/vertical_fov = 40/'
+  echo 'transform = { scale = 0.9 }'
+  printf '[[material]]\nname = "white"\ntype = "diffuse"\ncolor = 1\n[[object]]\nname = "room"\nshape = "box"\nmaterial = "white"\n'
+} >room.toml
 scene 0.5 1 >pixel.toml
 scene 0.5 4096 >large.toml
 
@@ -49,7 +55,7 @@ kept() {
   local input=$1 limit=$2 spp status=0
   shift 2
   rm -f out/*
-  "$meander" render "$input" "$@" --quiet --time "$limit" -o out/timed.exr --stats timed.json || status=$?
+  timeout 120 "$meander" render "$input" "$@" --quiet --time "$limit" -o out/timed.exr --stats timed.json || status=$?
   [[ $status -eq 0 ]] || { fail "$input --time $limit $*: exit code $status"; return; }
   spp=$(value timed.json spp)
   python3 - "$limit" <<'PY' || fail "$input --time $limit $*: $(value timed.json seconds) s for $spp samples a pixel"
@@ -70,7 +76,7 @@ too_short() {
   shift 3
   rm -f out/*
   begin=$(date +%s%N)
-  message=$("$meander" render "$input" "$@" --quiet --time "$limit" -o out/a.exr 2>&1) || status=$?
+  message=$(timeout 120 "$meander" render "$input" "$@" --quiet --time "$limit" -o out/a.exr 2>&1) || status=$?
   passed=$((($(date +%s%N) - begin) / 1000000))
   [[ $status -eq 3 ]] || fail "$input --time $limit: exit code $status"
   [[ $message == *"no pass was complete within --time $limit (seconds)"* && $(wc -l <<<"$message") -eq 1 ]] || fail "$input --time $limit says: $message"
@@ -82,6 +88,7 @@ for walk in batch scalar; do
   kept dense.toml 1 --walk $walk --width 16 --height 16
   too_short denser.toml 0.3 1500 --walk $walk
   too_short trap.toml 0.3 1500 --walk $walk
+  too_short room.toml 0.3 1500 --walk $walk
 done
 
 # One pixel, and a corner and the middle of 4096 x 4096, by both doors; the furnace is 1.
