@@ -135,8 +135,10 @@ std::string warning_due(const Case& row) {
 }
 
 // Whether the case, walked in lanes, fails with its fault planted in it and held against what it was.
-bool finds_fault(const Case& row, const Readings& reference, double threshold) {
-  const Job faulty = make_job(with_fault(row.scene, row.fault), 2);
+bool finds_fault(const Case& row, const Job& job, const Readings& reference, double threshold) {
+  Job faulty = job;
+  faulty.scene = std::make_shared<const Scene>(with_fault(row.scene, row.fault));
+  faulty.geometry = std::make_shared<const Geometry>(*faulty.scene, faulty.threads, job.geometry.get());
   if (warning_of(faulty) != warning_due(row)) return true;
   Judge judge(row, reference, threshold);
   static_cast<void>(judge.verdict(rendered(faulty, row.spp, WalkCode::batch, 2)));
@@ -164,7 +166,8 @@ Outcome judge(const Case& row, double threshold) {
     for (const std::string& reason : judge.reasons())
       outcome.reasons.push_back((lanes ? "lanes: " : "scalar: ") + reason);
   }
-  if (!finds_fault(row, reference, threshold)) outcome.reasons.emplace_back("the fault planted is not found");
+  if (!finds_fault(row, job, reference, threshold))
+    outcome.reasons.emplace_back("the fault planted is not found");
   return outcome;
 }
 

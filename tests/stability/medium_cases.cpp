@@ -151,7 +151,7 @@ void add_face_cases(std::vector<Case>& rows) {
     for (const bool mesh : {false, true}) {
       Case row{group,        text(ratio) + (mesh ? " face of a cube mesh" : " face of a box"),
                "half-space", face_of(mesh ? cube : Shape(BoxShape{}), ratio),
-               400,          Exact{face_value(), 0}};
+               200,          Exact{face_value(), 0}};
       row.inaccurate = ratio < 2e-5;
       if (row.inaccurate && mesh) {
         row.held_against = "half-space, stated";

@@ -150,7 +150,7 @@ void add_mesh_cases(std::vector<Case>& rows) {
 
 void add_furnace_cases(std::vector<Case>& rows) {
   const std::pair<std::string, Mesh> meshes[]{
-      {"cube of needle triangles", make_cube(1, 2000)},
+      {"cube of needle triangles", make_cube(1, 500)},
       {"cube, its triangles twice", doubled(make_cube(4, 4))},
       {"tip of 1000 triangles", make_pyramid(1000)},
       {"wedge of 0.001", make_prism({{-1, -1e-3}, {1, 0}, {-1, 1e-3}})}};
