@@ -129,6 +129,7 @@ void add_path_cases(std::vector<Case>& rows) {
              Exact{once, 3 * sigma * once},
              Fault::doubled};
     row.rare = ratio > 1e3;
+    if (row.rare) row.long_spp = 150;
     rows.push_back(std::move(row));
   }
 }
