@@ -114,14 +114,17 @@ void add_path_cases(std::vector<Case>& rows) {
     if (ball.rare) ball.long_spp = 150;
     rows.push_back(std::move(ball));
   }
-  // Light from the side: single scattering, in proportion to the depth.
+}
+
+// Light from the side: single scattering, in proportion to the depth.
+void add_side_cases(std::vector<Case>& rows) {
   for (const double ratio : {1e2, 1e4}) {
     const double sigma = 0.5 / ratio;
     Scene scene = white_surround(shape_of(make_cube()), {grey(2 * ratio, 0.8), Boundary::matched, 1, 0}, 0.4);
     scene.environment.radiance = Rgb(0);
     scene.lights.push_back({"sun", DirectionalLight{{-1, 0, 0}, Rgb(static_cast<Real>(ratio))}, false});
     const double once = 0.8 / (4 * glm::pi<double>()) * 0.5 * 2;
-    Case row{group,
+    Case row{"mean free path",
              text(ratio) + " cube mesh lit from the side",
              "single scattering, per sigma_t 4V/S",
              std::move(scene),
@@ -228,6 +231,7 @@ void add_medium_cases(std::vector<Case>& rows) {
   add_albedo_cases(rows);
   add_phase_cases(rows);
   add_path_cases(rows);
+  add_side_cases(rows);
   add_face_cases(rows);
   add_shortest_paths(rows);
   add_channel_cases(rows);
