@@ -3,6 +3,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "app/command_line.h"
@@ -25,6 +26,13 @@ std::string one_line(const std::string& text) {
   return line;
 }
 
+// oneTBB says so in words alone.
+bool lacks_thread(const std::exception& error) {
+  const auto* coded = dynamic_cast<const std::system_error*>(&error);
+  return coded ? coded->code() == std::errc::resource_unavailable_try_again
+               : std::string_view(error.what()).starts_with("pthread_create");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -41,13 +49,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::cerr << "meander: out of memory\n";
     return 3;
-  } catch (const std::system_error& error) {
-    const bool scarce = error.code() == std::errc::resource_unavailable_try_again;
-    std::cerr << "meander: " << (scarce ? "no memory, or no thread, for another thread: " : "")
-              << error.what() << '\n';
-    return 3;
   } catch (const std::exception& error) {
-    std::cerr << "meander: " << error.what() << '\n';
+    std::cerr << "meander: " << (lacks_thread(error) ? "no memory, or no thread, for another thread: " : "")
+              << error.what() << '\n';
     return 3;
   }
 }

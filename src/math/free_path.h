@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/random.h"
 #include "math/types.h"
 
 namespace meander {
@@ -18,6 +19,15 @@ namespace meander {
 /// generator's grid and never 0, which xi itself can be.
 [[nodiscard]] inline Real sample_free_path(Real sigma, Real xi) noexcept {
   return sigma > 0 ? -std::log(Real(1) - xi) / sigma : std::numeric_limits<Real>::infinity();
+}
+
+/// The same for numbers off the grid. In a body far thinner than the mean free path a flight ends inside for
+/// the first few numbers of the grid alone: of an optical thickness of 1e-6, 17 of them instead of 16.8, and
+/// never before 0. What they leave out counts to first order, which is all that matters where the flight is
+/// short.
+[[nodiscard]] inline Real sample_free_path(Real sigma, const FineNumber& xi) noexcept {
+  return sigma > 0 ? (xi.rest - std::log(Real(1) - xi.number)) / sigma
+                   : std::numeric_limits<Real>::infinity();
 }
 
 /// sigma exp(-sigma s), per unit length.

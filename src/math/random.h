@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "math/types.h"
 
@@ -13,6 +14,13 @@ namespace meander {
 /// bijection of the 128-bit counter for each 64-bit key, so that distinct addresses never share a state.
 [[nodiscard]] std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                                   std::array<std::uint32_t, 2> key) noexcept;
+
+/// A number of Random::next() and a point of the step that follows it on the grid, so that number + rest is
+/// uniform on (0, 1) and resolved to 2^-32 where it is small.
+struct FineNumber {
+  Real number;
+  Real rest;
+};
 
 /// xoshiro128++ 1.0 (Blackman & Vigna 2021, "Scrambled Linear Pseudorandom Number Generators"). The state
 /// must not be all zero.
@@ -34,11 +42,30 @@ class Random {
     return result;
   }
 
-  /// Uniform on the grid k 2^-24, k = 0 … 2^24 - 1: 1 - next() is exact in float and never 0. The grid caps
-  /// one free flight at 16.6 mean free paths.
-  [[nodiscard]] Real next() noexcept { return static_cast<Real>(next_bits() >> 8) * Real(0x1p-24); }
+  /// Uniform on the grid k 2^-p, k = 0 … 2^p - 1, with Real's p digits (float 24, double 53): 1 - next() is
+  /// exact and never 0. The grid caps one free flight at p ln 2 mean free paths (float 16.6, double 36.7).
+  [[nodiscard]] Real next() noexcept {
+    if constexpr (kDigits <= 32) return static_cast<Real>(next_bits() >> (32 - kDigits)) * kSpacing;
+    const std::uint64_t high = next_bits();
+    return static_cast<Real>((high << 32 | next_bits()) >> (64 - kDigits)) * kSpacing;
+  }
+
+  /// The same number as next() would give, with what that cuts off (in float, 8 bits and half of a ninth).
+  [[nodiscard]] FineNumber next_fine() noexcept {
+    if constexpr (kDigits > 32) {
+      return {next(), kSpacing / 2};
+    } else {
+      const std::uint32_t bits = next_bits();
+      const std::uint32_t cut = bits & ((1u << (32 - kDigits)) - 1);
+      return {static_cast<Real>(bits >> (32 - kDigits)) * kSpacing,
+              static_cast<Real>(2 * cut + 1) * Real(0x1p-33)};
+    }
+  }
 
  private:
+  static constexpr int kDigits = std::numeric_limits<Real>::digits;
+  static constexpr Real kSpacing = std::numeric_limits<Real>::epsilon() / 2;
+
   static std::uint32_t rotate(std::uint32_t x, int k) noexcept { return (x << k) | (x >> (32 - k)); }
 
   std::array<std::uint32_t, 4> s_;

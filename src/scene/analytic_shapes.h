@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "math/types.h"
 #include "scene/crossing.h"
@@ -161,13 +162,13 @@ struct AffineShape {
     return glm::normalize(gradient_map * gradient);
   }
 
-  /// Where a line with unit direction is inside, distances in body units; gradients are the unit shape's.
-  [[nodiscard]] std::optional<Interval<Real>> inside(const Vec3& o, const Vec3& d) const noexcept {
-    return Unit::template inside<Real>(to_unit * o, to_unit * d);
-  }
-  /// The same in double, for rays from far away.
-  [[nodiscard]] std::optional<Interval<double>> inside(const DVec3& o, const DVec3& d) const noexcept {
-    return Unit::template inside<double>(precise_to_unit * o, precise_to_unit * d);
+  /// Where a line with unit direction is inside, distances in body units; gradients are the unit shape's. In
+  /// Real, or in double for rays from far away.
+  template <class T>
+  [[nodiscard]] std::optional<Interval<T>> inside(const glm::vec<3, T>& o,
+                                                  const glm::vec<3, T>& d) const noexcept {
+    const glm::mat<3, 3, T>& map = to_unit_in(T());
+    return Unit::template inside<T>(map * o, map * d);
   }
 
   /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. A
@@ -179,6 +180,15 @@ struct AffineShape {
     if (far == std::numeric_limits<Real>::infinity()) return {CrossingKind::leaked, far, p, {}, {}};
     const Vec3 normal = normal_from(exit.gradient);
     return {CrossingKind::exit, far, snap(p + far * d, exit.gradient), normal, normal};
+  }
+
+ private:
+  template <class T>
+  [[nodiscard]] const glm::mat<3, 3, T>& to_unit_in(T) const noexcept {
+    if constexpr (std::is_same_v<T, Real>)
+      return to_unit;
+    else
+      return precise_to_unit;
   }
 };
 

@@ -15,6 +15,22 @@ enum class CrossingKind : std::uint8_t {
            // bounds
 };
 
+/// From a point inside a body along a unit direction.
+struct Step {
+  Vec3 from{0};
+  Vec3 direction{0, 0, 1};
+  Real distance = 0;
+};
+
+/// Steps in rows, in single precision; as much room as there may be.
+struct alignas(64) Steps {
+  static constexpr std::size_t kMost = 128;
+  using Row = float[kMost + 16];  // a vector may be stored at the last one
+  Row from[3];
+  Row direction[3];
+  Row distance;
+};
+
 /// The outcome of one step in the body's own coordinates. `normal` (geometric) and `shading_normal` are unit,
 /// outward, and set only at an exit.
 struct Crossing {

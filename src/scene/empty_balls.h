@@ -54,37 +54,6 @@ struct EmptyBalls {
   }
   [[nodiscard]] const EmptyBall& at(const glm::vec3& p) const noexcept { return balls[cells[cell_at(p)]]; }
 
-  /// A ball into which no step from a point inside of the body leaves it; none (a negative squared radius)
-  /// where none is known.
-  [[nodiscard]] EmptyBall from(const glm::vec3& p) const noexcept {
-    const EmptyBall& ball = at(p);
-    if (ball.promise() == EmptyBall::facing || ball.holds(p)) return ball;
-    return ball.promise() == EmptyBall::followed ? *(&ball + 1) : EmptyBall{};
-  }
-
-  /// How far along a step from a point inside of the body balls tell that nothing is crossed, the first of
-  /// them one into which no step from there leaves the body; at most `distance`, and no promise where it is
-  /// less.
-  [[nodiscard]] float clear_length(EmptyBall ball, const glm::vec3& p, const glm::vec3& d,
-                                   float distance) const noexcept {
-    constexpr int kBalls = 4;
-    constexpr float kWithin = 1 - 0x1p-10f;  // of the way to a ball's far side
-    float clear = 0;
-    for (int i = 0; i < kBalls; ++i) {
-      const glm::vec3 place = p + clear * d;
-      if (i > 0) ball = at(place);
-      const glm::vec3 to = place - ball.center;
-      const float along = -glm::dot(to, d);
-      const float square = along * along + ball.radius2 - glm::dot(to, to);
-      if (!(square > 0) || (i > 0 && !ball.holds(place))) break;
-      const float further = (along + std::sqrt(square)) * kWithin;
-      if (!(further > 0)) break;
-      clear += further;
-      if (clear >= distance) return distance;
-    }
-    return clear;
-  }
-
   [[nodiscard]] std::size_t bytes() const noexcept {
     return cells.size() * sizeof(std::uint32_t) + balls.size() * sizeof(EmptyBall);
   }

@@ -116,16 +116,17 @@ struct BlockRatio {
   double weight = 0;
 };
 
-// Variance of A over that of B where both have some: the median over the blocks, each weighing as the root of
-// both. A sum over the sums would go by the brightest firefly, a plain median by blocks of rare events, which
-// most images of few samples miss. NaN where no block has both.
+// Variance of A over that of B where both have some: the median over the blocks, each weighing as the lesser
+// of both. A sum over the sums would go by the brightest firefly, and so would weights that grow with the
+// variance in either image; a plain median would go by blocks of rare events, which most images of few
+// samples miss. NaN where no block has both.
 double variance_ratio(const std::vector<Channels>& blocks, int channel) {
   std::vector<BlockRatio> ratios;
   double total = 0;
   for (const Channels& block : blocks) {
     const Difference& d = block[channel];
     if (d.variance_a <= 0 || d.variance_b <= 0) continue;
-    ratios.push_back({d.variance_a / d.variance_b, std::sqrt(d.variance_a) * std::sqrt(d.variance_b)});
+    ratios.push_back({d.variance_a / d.variance_b, std::min(d.variance_a, d.variance_b)});
     total += ratios.back().weight;
   }
   std::ranges::sort(ratios, {}, &BlockRatio::ratio);

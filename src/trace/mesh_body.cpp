@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "trace/packet_distances.h"
+#include "trace/ray_batch.h"
 
 namespace meander {
 namespace {
@@ -171,15 +172,30 @@ MeshBody::Begun MeshBody::restore(Begun begun, Real distance) const noexcept {
   return begun;
 }
 
-MeshBody::Begun MeshBody::begin_crossing(const Vec3& p, const Vec3& d, Real distance,
-                                         const ShortHint& hint) const noexcept {
-  const Begun begun = restore(cross(p * inverse_scale_, d, distance * inverse_scale_, hint), distance);
-  if (begun.triangle != Begun::kNoTriangle && !normals_.empty()) {
-    const auto* normals = reinterpret_cast<const char*>(&normals_[begun.triangle]);
+void MeshBody::begin_crossings(const Steps& steps, std::span<Begun> begun) const noexcept {
+  static_assert(kRayBatch >= Steps::kMost);
+  ShortRays rays{};  // vectors read beyond the last one
+  ShortExit exits[kRayBatch];
+  const std::size_t count = begun.size();
+  const auto scale = static_cast<float>(inverse_scale_);
+  constexpr auto kBehind = static_cast<float>(kMargin);
+  for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t i = 0; i < count; ++i) {
+      rays.direction[axis][i] = steps.direction[axis][i];
+      rays.origin[axis][i] = steps.from[axis][i] * scale - kBehind * steps.direction[axis][i];
+    }
+  for (std::size_t i = 0; i < count; ++i) rays.distance[i] = steps.distance[i] * scale + 2 * kBehind;
+  find_exits(packets_, cells_, rays, std::span(exits).first(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Step step{{steps.from[0][i], steps.from[1][i], steps.from[2][i]},
+                    {steps.direction[0][i], steps.direction[1][i], steps.direction[2][i]},
+                    steps.distance[i]};
+    begun[i] = restore(cross(scaled(step), exits[i]), step.distance);
+    if (begun[i].triangle == Begun::kNoTriangle || normals_.empty()) continue;
+    const auto* normals = reinterpret_cast<const char*>(&normals_[begun[i].triangle]);
     hwy::Prefetch(normals);
     hwy::Prefetch(normals + sizeof(normals_[0]) - 1);
   }
-  return begun;
 }
 
 Crossing MeshBody::finish_crossing(const Begun& begun) const noexcept {
@@ -190,7 +206,8 @@ Crossing MeshBody::finish_crossing(const Begun& begun) const noexcept {
 }
 
 Crossing MeshBody::first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
-  return finish_crossing(begin_crossing(p, d, distance));
+  const Step step = scaled({p, d, distance});
+  return finish_crossing(restore(cross(step, find_exit(packets_, cells_, short_ray(step))), distance));
 }
 
 Crossing MeshBody::first_crossing_in_tree(const Vec3& p, const Vec3& d, Real distance) const noexcept {
@@ -220,13 +237,13 @@ MeshBody::Begun MeshBody::without_exit(const Vec3& p, const Vec3& d, Real distan
 
 // Looking from a little behind finds the exit that rounding may have carried the point across; looking a
 // little too far finds the surface that the end of the step may round across.
-ShortRay MeshBody::short_ray(const Vec3& p, const Vec3& d, Real distance) noexcept {
-  return {glm::vec3(p - kMargin * d), glm::vec3(d), static_cast<float>(distance + 2 * kMargin)};
+ShortRay MeshBody::short_ray(const Step& step) noexcept {
+  return {glm::vec3(step.from - kMargin * step.direction), glm::vec3(step.direction),
+          static_cast<float>(step.distance + 2 * kMargin)};
 }
 
-MeshBody::Begun MeshBody::cross(const Vec3& p, const Vec3& d, Real distance,
-                                const ShortHint& hint) const noexcept {
-  const ShortExit exit = find_exit(packets_, cells_, short_ray(p, d, distance), hint);
+MeshBody::Begun MeshBody::cross(const Step& step, const ShortExit& exit) const noexcept {
+  const auto& [p, d, distance] = step;
   if (exit.kind == ShortExit::Kind::none) return without_exit(p, d, distance);
   if (exit.kind == ShortExit::Kind::unknown || exit.distance < kMargin) return cross_in_tree(p, d, distance);
   return cross_at(p, d, distance,

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "scene/crossing.h"
@@ -64,19 +65,10 @@ class MeshBody {
     Real v = 0;
   };
 
-  /// first_crossing in three parts, for who has several steps under way: the first is best done for all of
-  /// them before the second of any, and so on.
-  [[nodiscard]] ShortHint foresee_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
-    return foresee_exit(packets_, cells_, short_ray(p * inverse_scale_, d, distance * inverse_scale_));
-  }
-  [[nodiscard]] Begun begin_crossing(const Vec3& p, const Vec3& d, Real distance,
-                                     const ShortHint& hint = {}) const noexcept;
+  /// first_crossing in two parts, for who has several steps under way: the first of all of them, in as many
+  /// `begun`, then the second of each.
+  void begin_crossings(const Steps& steps, std::span<Begun> begun) const noexcept;
   [[nodiscard]] Crossing finish_crossing(const Begun& begun) const noexcept;
-
-  /// Asks for the memory that a step from here will need, so that it is near when the step is asked for.
-  void prefetch(const Vec3& p) const noexcept {
-    prefetch_exit(packets_, cells_, glm::vec3(p * inverse_scale_));
-  }
 
   /// The first surface within `distance` along a ray, from either side.
   [[nodiscard]] std::optional<MeshHit> closest(const Vec3& o, const Vec3& d, Real distance) const noexcept;
@@ -121,12 +113,14 @@ class MeshBody {
   [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Real u, Real v,
                                     const Vec3& normal) const noexcept;
   [[nodiscard]] bool is_outside(const Vec3& p, const Vec3& d) const noexcept;
-  [[nodiscard]] static ShortRay short_ray(const Vec3& p, const Vec3& d, Real distance) noexcept;
-  [[nodiscard]] Begun cross(const Vec3& p, const Vec3& d, Real distance,
-                            const ShortHint& hint) const noexcept;
+  [[nodiscard]] static ShortRay short_ray(const Step& step) noexcept;
+  [[nodiscard]] Begun cross(const Step& step, const ShortExit& exit) const noexcept;
   [[nodiscard]] Begun cross_in_tree(const Vec3& p, const Vec3& d, Real distance) const noexcept;
   [[nodiscard]] static Begun cross_at(const Vec3& p, const Vec3& d, Real distance, const Met& met) noexcept;
   [[nodiscard]] Begun without_exit(const Vec3& p, const Vec3& d, Real distance) const noexcept;
+  [[nodiscard]] Step scaled(const Step& step) const noexcept {
+    return {step.from * inverse_scale_, step.direction, step.distance * inverse_scale_};
+  }
   [[nodiscard]] Begun restore(Begun begun, Real distance) const noexcept;
 
   std::vector<glm::vec3> positions_;  // one spare at the end: Embree reads 16 bytes a vertex

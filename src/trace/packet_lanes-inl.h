@@ -19,21 +19,27 @@ using F = hn::CappedTag<float, kPacket>;
 using VF = hn::Vec<F>;
 using MF = hn::Mask<F>;
 
-struct V3 {
-  VF x, y, z;
+template <class V>
+struct Vec3Of {
+  V x, y, z;
 };
+using V3 = Vec3Of<VF>;
 
-HWY_INLINE V3 operator-(const V3& a, const V3& b) {
+template <class V>
+HWY_INLINE Vec3Of<V> operator-(const Vec3Of<V>& a, const Vec3Of<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
-HWY_INLINE V3 operator+(const V3& a, const V3& b) {
+template <class V>
+HWY_INLINE Vec3Of<V> operator+(const Vec3Of<V>& a, const Vec3Of<V>& b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
 }
 HWY_INLINE V3 operator*(VF a, const V3& b) { return {hn::Mul(a, b.x), hn::Mul(a, b.y), hn::Mul(a, b.z)}; }
-HWY_INLINE VF dot(const V3& a, const V3& b) {
+template <class V>
+HWY_INLINE V dot(const Vec3Of<V>& a, const Vec3Of<V>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
-HWY_INLINE V3 cross(const V3& a, const V3& b) {
+template <class V>
+HWY_INLINE Vec3Of<V> cross(const Vec3Of<V>& a, const Vec3Of<V>& b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }

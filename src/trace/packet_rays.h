@@ -16,34 +16,18 @@ struct ShortRay {
 /// second and third corners weigh u and v; `normal` has that triangle's direction outward, and any length.
 /// `unknown`: the ray is too long for the grid, or starts beyond it.
 struct ShortExit {
-  enum class Kind { none, exit, unknown } kind = Kind::unknown;
-  float distance = 0;
-  float u = 0;
-  float v = 0;
-  glm::vec3 point{0};
-  glm::vec3 normal{0};
-  std::uint32_t triangle = 0;
-};
-
-/// Which packets of the list of a ray's first cell it may leave by: a bit for each. No list where there is
-/// none, or where nothing is known.
-struct ShortHint {
-  const SurfaceCells::List* list = nullptr;
-  unsigned due = 0;
+  enum class Kind { unknown, none, exit } kind;
+  float distance;
+  float u;
+  float v;
+  glm::vec3 point;
+  glm::vec3 normal;
+  std::uint32_t triangle;
 };
 
 /// Watertight as Embree's robust test is: a ray that passes an edge meets one of the two triangles there,
 /// whose edge functions are the same numbers with the sign turned. The same bits on every instruction set.
-/// The hint is the ray's own.
-[[nodiscard]] ShortExit find_exit(const Packets& packets, const SurfaceCells& cells, const ShortRay& ray,
-                                  const ShortHint& hint = {}) noexcept;
-
-/// The beginning of find_exit, for who has several rays under way: those of one wait for those of another.
-/// Asks for the memory that the rest will need.
-[[nodiscard]] ShortHint foresee_exit(const Packets& packets, const SurfaceCells& cells,
-                                     const ShortRay& ray) noexcept;
-
-/// Asks for the memory that foresee_exit of a ray from here will need.
-void prefetch_exit(const Packets& packets, const SurfaceCells& cells, const glm::vec3& origin) noexcept;
+[[nodiscard]] ShortExit find_exit(const Packets& packets, const SurfaceCells& cells,
+                                  const ShortRay& ray) noexcept;
 
 }  // namespace meander

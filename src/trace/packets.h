@@ -12,7 +12,7 @@ namespace meander {
 inline constexpr std::size_t kPacket = 8;
 
 /// Positions by corner, axis and triangle. Where there are fewer than eight, the last stands again.
-struct alignas(32) Packet {
+struct alignas(64) Packet {
   float corner[3][3][kPacket];
   std::uint32_t triangle[kPacket];  // in the mesh
 };

@@ -12,42 +12,16 @@
 #include <hwy/highway.h>
 
 #include "math/vector_math-inl.h"
+#include "walk/lane_regions-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace meander::HWY_NAMESPACE {
-
-using F = hn::ScalableTag<float>;
-using U = hn::ScalableTag<std::uint32_t>;
-using VF = hn::Vec<F>;
-using VU = hn::Vec<U>;
-using MF = hn::Mask<F>;
-
-struct V3 {
-  VF x, y, z;
-};
-
-HWY_INLINE VF set(float value) { return hn::Set(F(), value); }
-HWY_INLINE VF dot(const V3& a, const V3& b) {
-  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
-}
-HWY_INLINE V3 load(const Lanes::Row (&rows)[3], int at) {
-  return {hn::Load(F(), rows[0] + at), hn::Load(F(), rows[1] + at), hn::Load(F(), rows[2] + at)};
-}
-HWY_INLINE void store(const V3& v, Lanes::Row (&rows)[3], int at) {
-  hn::Store(v.x, F(), rows[0] + at);
-  hn::Store(v.y, F(), rows[1] + at);
-  hn::Store(v.z, F(), rows[2] + at);
-}
-HWY_INLINE V3 choose(MF mask, const V3& yes, const V3& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-          hn::IfThenElse(mask, yes.z, no.z)};
-}
 
 // xoshiro128++ as in math/random.h, one state a lane.
 struct Generators {
   VU s0, s1, s2, s3;
 
-  HWY_INLINE VF next() {
+  HWY_INLINE VU next_bits() {
     const VU sum = hn::Add(s0, s3);
     const VU bits = hn::Add(hn::Or(hn::ShiftLeft<7>(sum), hn::ShiftRight<25>(sum)), s0);
     const VU t = hn::ShiftLeft<9>(s1);
@@ -57,98 +31,30 @@ struct Generators {
     s0 = hn::Xor(s0, s3);
     s2 = hn::Xor(s2, t);
     s3 = hn::Or(hn::ShiftLeft<11>(s3), hn::ShiftRight<21>(s3));
-    const hn::RebindToSigned<F> di;
-    return hn::Mul(hn::ConvertTo(F(), hn::BitCast(di, hn::ShiftRight<8>(bits))), set(0x1p-24f));
+    return bits;
+  }
+  static HWY_INLINE VF as_float(VU number) {
+    return hn::ConvertTo(F(), hn::BitCast(hn::RebindToSigned<F>(), number));
   }
   // Only the masked lanes draw.
   HWY_INLINE VF next(MF mask) {
     Generators drawn = *this;
-    const VF value = drawn.next();
+    const VF value = hn::Mul(as_float(hn::ShiftRight<8>(drawn.next_bits())), set(0x1p-24f));
     *this = choose(mask, drawn, *this);
     return value;
+  }
+  // The same, with the rest of Random::next_fine.
+  HWY_INLINE VF next_fine(MF mask, VF& rest) {
+    Generators drawn = *this;
+    const VU bits = drawn.next_bits();
+    *this = choose(mask, drawn, *this);
+    rest = hn::MulAdd(as_float(hn::And(bits, hn::Set(U(), 255))), set(0x1p-32f), set(0x1p-33f));
+    return hn::Mul(as_float(hn::ShiftRight<8>(bits)), set(0x1p-24f));
   }
   static HWY_INLINE Generators choose(MF mask, const Generators& yes, const Generators& no) {
     const auto m = hn::RebindMask(U(), mask);
     return {hn::IfThenElse(m, yes.s0, no.s0), hn::IfThenElse(m, yes.s1, no.s1),
             hn::IfThenElse(m, yes.s2, no.s2), hn::IfThenElse(m, yes.s3, no.s3)};
-  }
-};
-
-// Which steps from p to q cross nothing, see SafeRegion; a ball that is found to hold both becomes the
-// lane's.
-template <SafeRegion::Kind kKind>
-struct Region;
-
-template <>
-struct Region<SafeRegion::Kind::box> {
-  const SafeRegion& region;
-
-  HWY_INLINE MF holds(MF running, const V3&, const V3& q, Lanes&, int) const {
-    MF inside = running;
-    for (int i = 0; i < 3; ++i) {
-      const VF local = dot({set(region.map[i][0]), set(region.map[i][1]), set(region.map[i][2])}, q);
-      inside =
-          hn::And(inside, hn::And(hn::Ge(local, set(region.low[i])), hn::Le(local, set(region.high[i]))));
-    }
-    return inside;
-  }
-};
-
-template <>
-struct Region<SafeRegion::Kind::ellipsoid> {
-  const SafeRegion& region;
-
-  HWY_INLINE MF holds(MF running, const V3&, const V3& q, Lanes&, int) const {
-    VF sum = set(0);
-    for (int i = 0; i < 3; ++i) {
-      const VF local = dot({set(region.map[i][0]), set(region.map[i][1]), set(region.map[i][2])}, q);
-      sum = hn::MulAdd(local, local, sum);
-    }
-    return hn::And(running, hn::Le(sum, set(1)));
-  }
-};
-
-template <>
-struct Region<SafeRegion::Kind::balls> {
-  const SafeRegion& region;
-
-  static HWY_INLINE MF in_ball(const V3& p, const V3& center, VF radius2) {
-    const V3 d{hn::Sub(p.x, center.x), hn::Sub(p.y, center.y), hn::Sub(p.z, center.z)};
-    return hn::Le(dot(d, d), radius2);
-  }
-
-  HWY_INLINE MF holds(MF running, const V3& p, const V3& q, Lanes& lanes, int at) const {
-    const MF held =
-        hn::And(running, in_ball(q, load(lanes.ball_center, at), hn::Load(F(), lanes.ball_radius2 + at)));
-    const MF lost = hn::AndNot(held, running);
-    if (hn::AllFalse(F(), lost)) return held;
-    return hn::Or(held, look_up(lost, p, q, lanes, at));
-  }
-
-  // The ball of the cell in which the step ends.
-  HWY_INLINE MF look_up(MF lost, const V3& p, const V3& q, Lanes& lanes, int at) const {
-    const EmptyBalls& field = *region.balls;
-    const hn::RebindToSigned<F> di;
-    const auto cell = [&](VF coordinate, int axis) {
-      const VF place = hn::Mul(hn::Sub(coordinate, set(field.low[axis])), set(field.cells_per_unit));
-      const VF last = set(static_cast<float>(field.size[axis] - 1));
-      return hn::ConvertTo(di, hn::Min(hn::Max(hn::Floor(place), set(0)), last));
-    };
-    auto index = hn::Mul(cell(q.z, 2), hn::Set(di, field.size.y));
-    index = hn::Mul(hn::Add(index, cell(q.y, 1)), hn::Set(di, field.size.x));
-    index = hn::Add(index, cell(q.x, 0));
-    index = hn::IfThenElseZero(hn::RebindMask(di, lost), index);
-    const auto ball = hn::ShiftLeft<2>(
-        hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(field.cells.data()), index));
-    const float* balls = &field.balls[0].center.x;
-    const V3 center{hn::GatherIndex(F(), balls, ball), hn::GatherIndex(F(), balls + 1, ball),
-                    hn::GatherIndex(F(), balls + 2, ball)};
-    const VF radius2 = hn::GatherIndex(F(), balls + 3, ball);
-    const MF found = hn::And(lost, hn::And(in_ball(p, center, radius2), in_ball(q, center, radius2)));
-    store(choose(found, center, load(lanes.ball_center, at)), lanes.ball_center, at);
-    const VF old = hn::Load(F(), lanes.ball_radius2 + at);
-    hn::Store(hn::IfThenElse(found, radius2, old), F(), lanes.ball_radius2 + at);
-    return found;
   }
 };
 
@@ -160,31 +66,58 @@ class Kernel {
 
   HWY_INLINE void run(int count, int enough) {
     const int width = static_cast<int>(hn::Lanes(F()));
-    const auto rest = static_cast<std::uint32_t>(LaneState::running);
     for (std::uint64_t step_of_all = 0; step_of_all < kStopInterval; ++step_of_all) {
       int running = 0;
       for (int at = 0; at < count; at += width) {
-        const VU state = hn::Load(U(), lanes_.state + at);
-        const auto mask = hn::Eq(state, hn::Set(U(), rest));
-        if (hn::AllFalse(U(), mask)) continue;
-        running += static_cast<int>(hn::CountTrue(U(), mask));
-        step(at, hn::RebindMask(F(), mask));
+        if (const MF landed = running_lanes(at, LaneDue::collision); !hn::AllFalse(F(), landed))
+          collide_landed(at, landed);
+        const MF mask = hn::RebindMask(F(), hn::Eq(hn::Load(U(), lanes_.state + at), of(LaneState::running)));
+        if (hn::AllFalse(F(), mask)) continue;
+        running += static_cast<int>(hn::CountTrue(F(), mask));
+        step(at, mask);
       }
+      region_.settle(lanes_);
       if (running == 0 || running <= count - enough) return;
     }
   }
 
  private:
+  template <class E>
+  static HWY_INLINE VU of(E value) {
+    return hn::Set(U(), static_cast<std::uint32_t>(value));
+  }
+  HWY_INLINE MF running_lanes(int at, LaneDue due) const {
+    const auto runs = hn::Eq(hn::Load(U(), lanes_.state + at), of(LaneState::running));
+    return hn::RebindMask(F(), hn::And(runs, hn::Eq(hn::Load(U(), lanes_.due + at), of(due))));
+  }
+  HWY_INLINE Generators generators(int at) const {
+    return {hn::Load(U(), lanes_.random[0] + at), hn::Load(U(), lanes_.random[1] + at),
+            hn::Load(U(), lanes_.random[2] + at), hn::Load(U(), lanes_.random[3] + at)};
+  }
+  HWY_INLINE void keep(const Generators& random, int at) {
+    hn::Store(random.s0, U(), lanes_.random[0] + at);
+    hn::Store(random.s1, U(), lanes_.random[1] + at);
+    hn::Store(random.s2, U(), lanes_.random[2] + at);
+    hn::Store(random.s3, U(), lanes_.random[3] + at);
+  }
+
+  // Few at a time: apart, so that all other steps are spared it.
+  HWY_NOINLINE void collide_landed(int at, MF landed) {
+    Generators random = generators(at);
+    collide(at, landed, hn::Load(F(), lanes_.distance + at), random);
+    keep(random, at);
+  }
+
   HWY_INLINE void step(int at, MF running) {
-    Generators random{hn::Load(U(), lanes_.random[0] + at), hn::Load(U(), lanes_.random[1] + at),
-                      hn::Load(U(), lanes_.random[2] + at), hn::Load(U(), lanes_.random[3] + at)};
+    Generators random = generators(at);
     const V3 p = load(lanes_.position, at);
     const V3 d = scatter(at, running, random);
     store(d, lanes_.direction, at);
 
     const VF sigma = hn::Load(F(), lanes_.sigma + at);
-    const VF xi = random.next(running);
-    const VF distance = hn::Div(hn::Neg(log_lanes(F(), hn::Sub(set(1), xi))), sigma);
+    VF rest;
+    const VF xi = random.next_fine(running, rest);
+    const VF distance = hn::Div(hn::Sub(rest, log_lanes(F(), hn::Sub(set(1), xi))), sigma);
     hn::Store(hn::IfThenElse(running, distance, hn::Load(F(), lanes_.distance + at)), F(),
               lanes_.distance + at);
     const V3 q{hn::MulAdd(distance, d.x, p.x), hn::MulAdd(distance, d.y, p.y),
@@ -201,21 +134,17 @@ class Kernel {
     // What was not safe waits for its ray; what roulette ended is marked already.
     VU state = hn::Load(U(), lanes_.state + at);
     const MF waits = hn::AndNot(safe, running);
-    state = hn::IfThenElse(hn::RebindMask(U(), waits),
-                           hn::Set(U(), static_cast<std::uint32_t>(LaneState::crossing)), state);
+    state = hn::IfThenElse(hn::RebindMask(U(), waits), of(LaneState::crossing), state);
     hn::Store(state, U(), lanes_.state + at);
-    hn::Store(random.s0, U(), lanes_.random[0] + at);
-    hn::Store(random.s1, U(), lanes_.random[1] + at);
-    hn::Store(random.s2, U(), lanes_.random[2] + at);
-    hn::Store(random.s3, U(), lanes_.random[3] + at);
+    keep(random, at);
   }
 
   // A new direction for the lanes that one is due for.
   HWY_INLINE V3 scatter(int at, MF running, Generators& random) {
     const V3 d = load(lanes_.direction, at);
-    const VU scatters = hn::Load(U(), lanes_.scatters + at);
-    const MF due = hn::And(running, hn::RebindMask(F(), hn::Ne(scatters, hn::Zero(U()))));
-    hn::Store(hn::IfThenElseZero(hn::Not(hn::RebindMask(U(), running)), scatters), U(), lanes_.scatters + at);
+    const VU dues = hn::Load(U(), lanes_.due + at);
+    const MF due = hn::And(running, hn::RebindMask(F(), hn::Eq(dues, of(LaneDue::scattering))));
+    hn::Store(hn::IfThenElseZero(hn::Not(hn::RebindMask(U(), running)), dues), U(), lanes_.due + at);
     if (hn::AllFalse(F(), due)) return d;
     const VF u1 = random.next(due);
     const VF u2 = random.next(due);
@@ -281,7 +210,8 @@ class Kernel {
     hn::Store(hn::Add(length, hn::IfThenElseZero(safe, distance)), F(), lanes_.length + at);
     const auto m = hn::RebindMask(U(), safe);
     const VU one = hn::IfThenElseZero(m, hn::Set(U(), 1));
-    hn::Store(hn::IfThenElse(m, one, hn::Load(U(), lanes_.scatters + at)), U(), lanes_.scatters + at);
+    hn::Store(hn::IfThenElse(m, of(LaneDue::scattering), hn::Load(U(), lanes_.due + at)), U(),
+              lanes_.due + at);
     if constexpr (kChromatic) weigh_free_path(at, safe, distance);
     tally(at, safe, distance);
 
@@ -295,19 +225,18 @@ class Kernel {
     const VF lift = hn::Load(F(), lanes_.lift + at);
     weight = hn::Mul(weight, lift);
     VU state = hn::Load(U(), lanes_.state + at);
-    if (model_.rests_at_collisions)
-      state = hn::IfThenElse(m, hn::Set(U(), static_cast<std::uint32_t>(LaneState::collided)), state);
+    if (model_.rests_at_collisions) state = hn::IfThenElse(m, of(LaneState::collided), state);
     const MF plays = hn::And(safe, hn::Lt(weight, set(kRouletteThreshold)));
     if (!hn::AllFalse(F(), plays)) {
       const VF survival = hn::Mul(weight, set(1 / kRouletteThreshold));
       const MF survives = hn::Lt(random.next(plays), survival);
       hn::Store(hn::IfThenElse(hn::And(plays, survives), hn::Div(lift, survival), lift), F(),
                 lanes_.lift + at);
-      state = hn::IfThenElse(hn::RebindMask(U(), hn::AndNot(survives, plays)),
-                             hn::Set(U(), static_cast<std::uint32_t>(LaneState::absorbed)), state);
+      state =
+          hn::IfThenElse(hn::RebindMask(U(), hn::AndNot(survives, plays)), of(LaneState::absorbed), state);
     }
     hn::Store(state, U(), lanes_.state + at);
-    const VU dead = hn::Set(U(), static_cast<std::uint32_t>(LaneState::absorbed));
+    const VU dead = of(LaneState::absorbed);
     const VU scattered = hn::IfThenElseZero(hn::Ne(state, dead), one);
     hn::Store(hn::Add(hn::Load(U(), lanes_.order + at), scattered), U(), lanes_.order + at);
   }

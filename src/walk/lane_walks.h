@@ -2,12 +2,10 @@
 // rest.
 #pragma once
 
-#include <hwy/cache_control.h>
-
-#include <limits>
+#include <span>
 #include <utility>
 
-#include "walk/lanes.h"
+#include "walk/lane_rays.h"
 
 namespace meander {
 
@@ -39,7 +37,9 @@ template <World W, LaneClient C>
 class LaneWalks {
  public:
   LaneWalks(InstructionSet set, const W& world, const LaneModel& model, C& client) noexcept
-      : set_(set), world_(world), model_(model), client_(client) {}
+      : set_(set), world_(world), model_(model), client_(client) {
+    resting_.wants_rays = kTogether;
+  }
 
   /// Runs until the client has no walk left; false when it said stop, which is asked whenever rays are
   /// traced, and every kStopInterval steps at least. Errors: whatever the client throws.
@@ -48,18 +48,18 @@ class LaneWalks {
       lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);
       Walker walker;
       Random random({1, 0, 0, 0});
-      if (client_.start(lane, walker, random)) put(lane, walker, random, false);
+      if (client_.start(lane, walker, random)) put(lane, walker, random, LaneDue::flight);
     }
     give_balls();
     while (in_use_ > 0) {
       if (client_.stop()) return false;
       advance_lanes(set_, model_, lanes_, kLanes, kLanes - in_use_ + std::min(kRestingLanes, in_use_));
-      find_resting();
+      find_resting(set_, model_, lanes_, resting_);
       if constexpr (kTogether)
         begin_rays();
       else
         cross_together();
-      for (int i = 0; i < resting_count_; ++i) see_to(resting_[i]);
+      for (int i = 0; i < resting_.count; ++i) see_to(static_cast<int>(resting_.lane[i]));
       give_balls();
     }
     return true;
@@ -78,10 +78,10 @@ class LaneWalks {
     int hero = 0;
   };
 
-  void put(int lane, const Walker& walker, const Random& random, bool scatters) noexcept {
+  void put(int lane, const Walker& walker, const Random& random, LaneDue due) noexcept {
     if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::empty)) ++in_use_;
-    put_walker(lanes_, lane, walker, random, scatters, model_.medium.sigma_t);
-    fresh_[fresh_count_++] = lane;
+    put_walker(lanes_, lane, walker, random, due, model_.medium.sigma_t);
+    fresh_[fresh_count_++] = static_cast<std::uint32_t>(lane);
     put_[lane] = {walker.weight.ratio, walker.weight.since, walker.weight.order, walker.weight.hero};
   }
 
@@ -98,109 +98,51 @@ class LaneWalks {
     return walker;
   }
 
-  // Gives the lanes that have been put their balls, whose memory comes for all at once.
+  // Gives the lanes that have been put their balls.
   void give_balls() noexcept {
-    const int count = std::exchange(fresh_count_, 0);
-    const EmptyBalls* balls = model_.region.balls;
-    if (!balls) return;
-    std::size_t cells[kLanes];
-    for (int i = 0; i < count; ++i) {
-      cells[i] = balls->cell_at(position(fresh_[i]));
-      hwy::Prefetch(&balls->cells[cells[i]]);
-    }
-    for (int i = 0; i < count; ++i) hwy::Prefetch(&balls->balls[balls->cells[cells[i]]]);
-    for (int i = 0; i < count; ++i) put_ball(lanes_, fresh_[i], balls->from(position(fresh_[i])));
+    const auto count = static_cast<std::size_t>(std::exchange(fresh_count_, 0));
+    if (const EmptyBalls* balls = model_.region.balls)
+      meander::give_balls(set_, *balls, lanes_, std::span(fresh_).first(count));
   }
 
-  [[nodiscard]] glm::vec3 position(int lane) const noexcept {
+  [[nodiscard]] Vec3 position(int lane) const noexcept {
     return {lanes_.position[0][lane], lanes_.position[1][lane], lanes_.position[2][lane]};
   }
-
   [[nodiscard]] Vec3 direction(int lane) const noexcept {
     return {lanes_.direction[0][lane], lanes_.direction[1][lane], lanes_.direction[2][lane]};
   }
 
-  // Rays are begun for all resting lanes together where the world can, part by part, so that one does not
-  // wait for what another waits for.
-  static constexpr bool kTogether = requires(const W& world, const Vec3& p, Real t) {
-    world.prefetch(p);
-    world.finish_crossing(world.begin_crossing(p, p, t, world.foresee_crossing(p, p, t)));
-  };
-
-  void find_resting() noexcept {
-    resting_count_ = 0;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      resting_[resting_count_] = lane;
-      const auto state = static_cast<LaneState>(lanes_.state[lane]);
-      resting_count_ += int{state != LaneState::running} & int{state != LaneState::empty};
-    }
-  }
-
-  // A ray under way: what balls do not answer for of a lane's step.
-  struct LaneRay {
-    int lane;
-    Vec3 origin;
-    Vec3 direction;
-    Real distance;
+  // Rays are begun for all resting lanes together where the world can, so that one does not wait for what
+  // another waits for.
+  static constexpr bool kTogether = requires(const W& world, const Steps& steps) {
+    world.begin_crossings(steps, std::span<typename W::Begun>());
   };
 
   void begin_rays() noexcept {
-    LaneRay rays[kLanes];
-    decltype(std::declval<const W&>().foresee_crossing(Vec3(), Vec3(), Real())) hints[kLanes];
-    int count = 0;
-    for (int i = 0; i < resting_count_; ++i) {
-      const int lane = resting_[i];
-      if (lanes_.state[lane] != static_cast<std::uint32_t>(LaneState::crossing)) continue;
-      LaneRay& ray = rays[count];
-      ray = ray_of(lane);
-      count += ray.distance > 0;
-    }
-    counters_.rays += static_cast<std::uint64_t>(count);
-    for (int i = 0; i < count; ++i) world_.prefetch(rays[i].origin);
-    for (int i = 0; i < count; ++i)
-      hints[i] = world_.foresee_crossing(rays[i].origin, rays[i].direction, rays[i].distance);
-    for (int i = 0; i < count; ++i)
-      begun_[rays[i].lane] =
-          world_.begin_crossing(rays[i].origin, rays[i].direction, rays[i].distance, hints[i]);
+    counters_.rays += static_cast<std::uint64_t>(resting_.ray_count);
+    world_.begin_crossings(resting_.rays,
+                           std::span(begun_).first(static_cast<std::size_t>(resting_.ray_count)));
   }
 
   // Steps that leave an exact body, one after another, so that the roots and divisions of one do not wait for
   // those of another.
   void cross_together() noexcept {
-    for (int i = 0; i < resting_count_; ++i) {
-      const int lane = resting_[i];
+    for (int i = 0; i < resting_.count; ++i) {
+      const auto lane = static_cast<int>(resting_.lane[i]);
       if (lanes_.state[lane] != static_cast<std::uint32_t>(LaneState::crossing)) continue;
-      begun_[lane] = world_.first_crossing(Vec3(position(lane)), direction(lane), distance_of(lane));
+      begun_[lane] = world_.first_crossing(position(lane), direction(lane), Real(lanes_.distance[lane]));
       ++counters_.rays;
     }
   }
 
-  // Of a lane's step. Where the hero channel does not collide, the kernel divides 0 by 0 once in 2^24 steps.
-  [[nodiscard]] Real distance_of(int lane) const noexcept {
+  [[nodiscard]] Crossing finish_ray(int lane) noexcept {
     const Real distance(lanes_.distance[lane]);
-    return distance >= 0 ? distance : std::numeric_limits<Real>::infinity();
-  }
-
-  // The first part of a long step is often in balls, and all of some.
-  [[nodiscard]] LaneRay ray_of(int lane) noexcept {
-    const Vec3 p(position(lane));
-    const Vec3 d = direction(lane);
-    const Real distance = distance_of(lane);
-    const EmptyBalls* balls = model_.region.balls;
-    Real clear = 0;
-    if (balls && distance * Real(balls->cells_per_unit) > 1)
-      clear = balls->clear_length(ball_of(lanes_, lane), position(lane), glm::vec3(d), distance);
-    clear_[lane] = clear;
-    return {lane, p + clear * d, d, distance - clear};
-  }
-
-  [[nodiscard]] Crossing finish_ray(int lane, const Walker& walker) noexcept {
-    const Real distance = distance_of(lane);
     if constexpr (kTogether) {
-      if (clear_[lane] == distance)
-        return {CrossingKind::none, distance, walker.position + distance * walker.direction, {}, {}};
-      Crossing crossing = world_.finish_crossing(begun_[lane]);
-      crossing.distance += clear_[lane];
+      const Real clear(resting_.clear[lane]);
+      if (clear == distance)
+        return {CrossingKind::none, distance, position(lane) + distance * direction(lane), {}, {}};
+      Crossing crossing = world_.finish_crossing(begun_[resting_.ray[lane]]);
+      crossing.distance += clear;
       return crossing;
     } else {
       return begun_[lane];
@@ -209,49 +151,44 @@ class LaneWalks {
 
   void see_to(int lane) {
     const auto state = static_cast<LaneState>(lanes_.state[lane]);
+    WalkResult result{WalkEnd::absorbed, {}};
+    if (state == LaneState::crossing) {
+      result.crossing = finish_ray(lane);
+      if (result.crossing.kind == CrossingKind::none) {
+        land(lanes_, lane, result.crossing.point, result.crossing.distance);
+        fresh_[fresh_count_++] = static_cast<std::uint32_t>(lane);
+        return;
+      }
+    }
     if constexpr (kTallies) {
       client_.tally(lane, Real(lanes_.path[lane]), Real(lanes_.absorbed[lane]));
       lanes_.path[lane] = lanes_.absorbed[lane] = 0;
     }
     Walker walker = walker_in(lane);
     Random random = random_of(lanes_, lane);
-    if (state == LaneState::absorbed) return end(lane, {WalkEnd::absorbed, {}}, walker, random);
-    if (state == LaneState::crossing && !cross(lane, walker, random)) return;
-    if (model_.rests_at_collisions) client_.collided(lane, walker, random);
-    put(lane, walker, random, true);
+    if (state == LaneState::collided) {
+      client_.collided(lane, walker, random);
+      put(lane, walker, random, LaneDue::scattering);
+      return;
+    }
+    if (state == LaneState::crossing) leave(lane, result, walker);
+    end(lane, result, walker, random);
   }
 
-  // Ends a step that needed a ray; true when it ended in a collision that the walk survived.
-  [[nodiscard]] bool cross(int lane, Walker& walker, Random& random) {
-    const Crossing crossing = finish_ray(lane, walker);
-    if constexpr (kTallies) {
-      const Real carried = walker.weight.carried().x;
-      const bool stays = crossing.kind == CrossingKind::none;
-      if (crossing.kind != CrossingKind::leaked)
-        client_.tally(lane, carried * crossing.distance,
-                      stays ? carried * (1 - model_.medium.albedo.x) : Real(0));
-    }
-    if (crossing.kind != CrossingKind::none) {
-      walker.weight.pass(model_.medium, crossing.distance);
-      if (crossing.kind == CrossingKind::exit) walker.position = crossing.point;
-      const bool exited = crossing.kind == CrossingKind::exit;
-      end(lane, {exited ? WalkEnd::exited : WalkEnd::leaked, crossing}, walker, random);
-      return false;
-    }
-    walker.position = crossing.point;
-    walker.weight.collide(model_.medium, crossing.distance);
-    walker.weight.albedo *= model_.medium.albedo;
-    if (!walker.weight.survives_roulette(random, kRouletteThreshold)) {
-      end(lane, {WalkEnd::absorbed, crossing}, walker, random);
-      return false;
-    }
-    ++walker.weight.order;
-    return true;
+  // Ends a walk that has crossed the surface, or leaked.
+  void leave(int lane, WalkResult& result, Walker& walker) {
+    const Crossing& crossing = result.crossing;
+    const bool exits = crossing.kind == CrossingKind::exit;
+    if constexpr (kTallies)
+      if (exits) client_.tally(lane, walker.weight.carried().x * crossing.distance, 0);
+    walker.weight.pass(model_.medium, crossing.distance);
+    if (exits) walker.position = crossing.point;
+    result.end = exits ? WalkEnd::exited : WalkEnd::leaked;
   }
 
   void end(int lane, const WalkResult& result, Walker& walker, Random& random) {
     if (client_.end(lane, result, walker, random)) {
-      put(lane, walker, random, false);
+      put(lane, walker, random, LaneDue::flight);
       return;
     }
     lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);
@@ -271,11 +208,9 @@ class LaneWalks {
     else
       return Crossing{};
   }
-  decltype(begun_kind()) begun_[kLanes];
-  Real clear_[kLanes] = {};  // of each crossing lane's step, the part that balls answer for
-  int resting_[kLanes + 1] = {};
-  int resting_count_ = 0;
-  int fresh_[kLanes] = {};  // lanes that have been put and have no ball yet
+  decltype(begun_kind()) begun_[kLanes];  // by ray, or by lane where each is found alone
+  RestingLanes resting_;
+  std::uint32_t fresh_[kLanes + 16] = {};  // lanes that have been put and have no ball yet
   int fresh_count_ = 0;
   LaneCounters counters_;
 };

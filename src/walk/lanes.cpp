@@ -13,7 +13,7 @@ Vec3 get(const Lanes::Row (&rows)[3], int lane) noexcept {
 
 }  // namespace
 
-void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, bool scatters,
+void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, LaneDue due,
                 const Rgb& sigma_t) noexcept {
   put(lanes.position, lane, walker.position);
   put(lanes.direction, lane, walker.direction);
@@ -30,20 +30,16 @@ void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& rand
   for (int i = 0; i < 4; ++i) lanes.random[i][lane] = random.state()[static_cast<std::size_t>(i)];
   lanes.order[lane] = walker.weight.order;
   lanes.steps[lane] = static_cast<std::uint32_t>(walker.steps);
-  lanes.scatters[lane] = scatters ? 1 : 0;
+  lanes.due[lane] = static_cast<std::uint32_t>(due);
   lanes.state[lane] = static_cast<std::uint32_t>(LaneState::running);
 }
 
-void put_ball(Lanes& lanes, int lane, const EmptyBall& ball) noexcept {
-  put(lanes.ball_center, lane, Vec3(ball.center));
-  lanes.ball_radius2[lane] = ball.radius2;
-}
-
-EmptyBall ball_of(const Lanes& lanes, int lane) noexcept {
-  EmptyBall ball;
-  ball.center = glm::vec3(get(lanes.ball_center, lane));
-  ball.radius2 = lanes.ball_radius2[lane];
-  return ball;
+void land(Lanes& lanes, int lane, const Vec3& point, Real distance) noexcept {
+  put(lanes.position, lane, point);
+  lanes.distance[lane] = static_cast<float>(distance);
+  lanes.ball_radius2[lane] = -1;
+  lanes.due[lane] = static_cast<std::uint32_t>(LaneDue::collision);
+  lanes.state[lane] = static_cast<std::uint32_t>(LaneState::running);
 }
 
 Walker walker_of(const Lanes& lanes, int lane) noexcept {

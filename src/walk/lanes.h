@@ -27,6 +27,10 @@ enum class LaneState : std::uint32_t {
   empty      // holds no walk
 };
 
+/// What a running lane does first: fly, scatter and fly, or collide where it is, `distance` having been
+/// flown.
+enum class LaneDue : std::uint32_t { flight, scattering, collision };
+
 /// The walks of a batch, one a lane; single precision. Weights as in PathWeight: `ratio` are the densities of
 /// the free paths in proportion, `lift` what roulette has multiplied the throughput by, which `throughput`
 /// leaves out. `ball` is one into which no step from the position crosses anything, or has a negative squared
@@ -51,18 +55,16 @@ struct alignas(64) Lanes {
   std::uint32_t random[4][kLanes];
   std::uint32_t order[kLanes];
   std::uint32_t steps[kLanes];
-  std::uint32_t scatters[kLanes];  // 1 where a new direction is due before the next step, else 0
+  std::uint32_t due[kLanes];  // LaneDue
   std::uint32_t state[kLanes];
 };
 
-/// Puts a walk into a lane, which runs from then on; what scatters next is `scatters`.
-void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, bool scatters,
+/// Puts a walk into a lane, which runs from then on, without a ball.
+void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, LaneDue due,
                 const Rgb& sigma_t) noexcept;
 
-/// Gives a lane a ball, see Lanes.
-void put_ball(Lanes& lanes, int lane, const EmptyBall& ball) noexcept;
-
-[[nodiscard]] EmptyBall ball_of(const Lanes& lanes, int lane) noexcept;
+/// Lets a lane's walk collide at a point after a flight, from which on it runs, without a ball.
+void land(Lanes& lanes, int lane, const Vec3& point, Real distance) noexcept;
 
 /// The walk of a lane (but for its hero channel) and the state of its generator, for scalar code.
 [[nodiscard]] Walker walker_of(const Lanes& lanes, int lane) noexcept;

@@ -107,7 +107,7 @@ template <World W, WalkEvents E>
   const Real sigma = medium.sigma_t[walker.weight.hero];
   for (;;) {
     if (++walker.steps % kStopInterval == 0 && events.stop()) return {WalkEnd::interrupted, {}};
-    const Real distance = sample_free_path(sigma, random.next());
+    const Real distance = sample_free_path(sigma, random.next_fine());
     const Crossing crossing = world.first_crossing(walker.position, walker.direction, distance);
     if (crossing.kind == CrossingKind::leaked) {
       walker.weight.pass(medium, crossing.distance);

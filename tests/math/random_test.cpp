@@ -16,6 +16,8 @@ namespace {
 
 using Counter = std::array<std::uint32_t, 4>;
 
+constexpr int kDigits = std::numeric_limits<Real>::digits;
+
 // Pearson's correlation of `count` pairs, times sqrt(count): standard normal when there is none.
 template <class Pair>
 double correlation_p(const Pair& pair_at, int count) {
@@ -70,7 +72,7 @@ TEST_CASE("A stream is a pure function of its address, and every part of the add
   CHECK(first(7, 8, 9) != first(7 + (std::uint64_t{1} << 32), 8, 9));
 }
 
-TEST_CASE("Numbers lie on the grid of 2^-24 in [0, 1), and 1 minus them is exact") {
+TEST_CASE("Numbers lie on the grid of Real's digits in [0, 1), and 1 minus them is exact") {
   Random random = stream(1, 2, 3);
   bool on_grid = true;
   bool in_range = true;
@@ -78,14 +80,31 @@ TEST_CASE("Numbers lie on the grid of 2^-24 in [0, 1), and 1 minus them is exact
   for (int i = 0; i < 2'000'000; ++i) {
     const Real u = random.next();
     in_range = in_range && u >= 0 && u <= kLargestRandom;
-    on_grid = on_grid && double{u} * 0x1p24 == std::floor(double{u} * 0x1p24);
-    exact = exact && double{Real(1) - u} == 1 - double{u};
+    on_grid = on_grid && std::ldexp(u, kDigits) == std::floor(std::ldexp(u, kDigits));
+    exact = exact && static_cast<long double>(Real(1) - u) == 1 - static_cast<long double>(u);
   }
   CHECK(in_range);
   CHECK(on_grid);
   CHECK(exact);
-  // The largest bits there are: rotate(s0 + s3) + s0 = 2^32 - 1 with s0 = 2^32 - 1, s3 = 1.
-  CHECK(Random({0xffffffffu, 1, 1, 1}).next() == kLargestRandom);
+  // The largest bits there are, twice: rotate(s0 + s3) + s0 = 2^32 - 1 with s0 = 2^32 - 1, s3 = 1, and again
+  // with the next state's s0 = 0, s3 = 2^32 - 1.
+  CHECK(Random({0xffffffffu, 0xfffffffeu, 1, 1}).next() == kLargestRandom);
+}
+
+TEST_CASE("A fine number is the next number and a point of the step after it") {
+  Random plain = stream(3, 2, 1);
+  Random fine = plain;
+  double rests = 0;
+  constexpr int kCount = 1'000'000;
+  for (int i = 0; i < kCount; ++i) {
+    const FineNumber number = fine.next_fine();
+    REQUIRE(number.number == plain.next());
+    REQUIRE(number.rest > 0);
+    REQUIRE(number.rest < 0.5 * kRealEpsilon);
+    rests += number.rest / (0.5 * kRealEpsilon) - 0.5;
+  }
+  CHECK(fine.state() == plain.state());
+  CHECK(std::abs(rests) < 4 * std::sqrt(kCount / 12.0));
 }
 
 TEST_CASE("Numbers have the mean and variance of the uniform distribution and fill it evenly") {
@@ -96,8 +115,8 @@ TEST_CASE("Numbers have the mean and variance of the uniform distribution and fi
   Random random = stream(2, 0, 0);
   for (int i = 0; i < kCount; ++i) {
     const double u = random.next();
-    const auto k = static_cast<std::uint32_t>(u * 0x1p24);
-    ++high[k >> 12];
+    const auto k = static_cast<std::uint64_t>(std::ldexp(u, kDigits));
+    ++high[k >> (kDigits - 12)];
     ++low[k & 4095];
     sum += u - 0.5;
     sum_squares += (u - 0.5) * (u - 0.5);
@@ -108,7 +127,7 @@ TEST_CASE("Numbers have the mean and variance of the uniform distribution and fi
   }
   TestFamily family;
   // The grid's mean is half a step below 1/2; (u - 1/2)^2 has mean 1/12 and variance 1/180.
-  family.add("mean", two_sided_p(z_score(sum / kCount, -0x1p-25, std::sqrt(1.0 / 12 / kCount))));
+  family.add("mean", two_sided_p(z_score(sum / kCount, -0.25 * kRealEpsilon, std::sqrt(1.0 / 12 / kCount))));
   family.add("variance", two_sided_p(z_score(sum_squares / kCount, 1.0 / 12, std::sqrt(1.0 / 180 / kCount))));
   const auto uniform_p = [](const std::vector<double>& counts, double count) {
     return chi_square_test(counts, std::vector<double>(counts.size(), count / double(counts.size()))).p;

@@ -3,7 +3,7 @@
 # The scalar walk, and what both codes share.
 mutant sign_of_g slab_forward walk/random_walk.h 'sample_henyey_greenstein(g, u1)' 'sample_henyey_greenstein(-g, u1)'
 mutant sigma_t_3_percent_high slab_unscattered walk/random_walk.h \
-  'sample_free_path(sigma, random.next())' 'sample_free_path(Real(1.03) * sigma, random.next())'
+  'sample_free_path(sigma, random.next_fine())' 'sample_free_path(Real(1.03) * sigma, random.next_fine())'
 mutant exit_1_percent_short mean_path walk/analytic_worlds.h \
   'std::max(b > 0 ? -c / (b + root) : root - b, Real(0));' \
   'Real(0.99) * std::max(b > 0 ? -c / (b + root) : root - b, Real(0));'
@@ -42,14 +42,14 @@ mutant lane_exponent_upside_down chromatic_slab_lanes walk/lane_kernels.cpp \
   'set(least - sigma[c])' 'set(sigma[c] - least)'
 mutant lane_density_not_normalised chromatic_slab_lanes walk/lane_kernels.cpp \
   'hn::Mul(exp_lanes(F(), power), set(sigma[c]))' 'exp_lanes(F(), power)'
-mutant lane_ball_1_percent_large mean_path_lanes walk/lane_kernels.cpp \
+mutant lane_ball_1_percent_large mean_path_lanes walk/lane_regions-inl.h \
   'hn::Le(sum, set(1))' 'hn::Le(sum, set(1.0201f))'
-mutant lane_layer_too_thick slab_forward_lanes walk/lane_kernels.cpp \
-  'hn::Ge(local, set(region.low[i]))' 'hn::Ge(local, set(region.low[i] - 0.02f))'
+mutant lane_layer_too_thick slab_forward_lanes walk/lane_regions-inl.h \
+  'hn::Ge(local, set(region_.low[i]))' 'hn::Ge(local, set(region_.low[i] - 0.02f))'
 mutant lane_not_moved half_space_lanes walk/lane_kernels.cpp \
   'store(choose(safe, q, p), lanes_.position, at);' 'store(p, lanes_.position, at);'
 mutant lane_uniform_paths infinite_moments_lanes walk/lane_kernels.cpp \
-  'hn::Div(hn::Neg(log_lanes(F(), hn::Sub(set(1), xi))), sigma)' 'hn::Div(hn::Add(xi, xi), sigma)'
+  'hn::Div(hn::Sub(rest, log_lanes(F(), hn::Sub(set(1), xi))), sigma)' 'hn::Div(hn::Add(xi, xi), sigma)'
 mutant lane_backward_not_swapped half_space_backward_lanes walk/lane_kernels.cpp \
   'if (g < 0) {' 'if (false) {'
 mutant lane_tallies_after_the_albedo sphere_fresnel_lanes walk/lane_kernels.cpp \
@@ -60,30 +60,31 @@ mutant lane_exit_not_weighed chromatic_slab_lanes walk/lane_walks.h \
 mutant lane_history_twice chromatic_slab_lanes walk/lane_walks.h \
   'if (walker.weight.order == put.order) {' 'if (true) {'
 mutant lane_short_ray_skipped slab_forward_lanes walk/lane_walks.h \
-  'return world_.first_crossing(walker.position, walker.direction, distance);' \
-  'if (distance < Real(0.5)) return {CrossingKind::none, distance, walker.position + distance * walker.direction};
-      return world_.first_crossing(walker.position, walker.direction, distance);'
+  'return begun_[lane];' \
+  'if (distance < Real(0.5)) return {CrossingKind::none, distance, position(lane) + distance * direction(lane)};
+      return begun_[lane];'
 
 # Meshes: empty balls and short rays.
 mutant ray_behind_a_ball_skipped mean_path_knot_lanes walk/lane_walks.h \
-  'if (clear_[lane] == distance)' 'if (clear_[lane] > 0)'
-mutant clear_part_not_added mean_path_knot_lanes walk/lane_walks.h 'crossing.distance += clear_[lane];' ''
-mutant ball_beyond_counts own_plate_lanes scene/empty_balls.h ' || (i > 0 && !ball.holds(place))' ''
-mutant any_ball_faces own_plate_lanes scene/empty_balls.h \
-  'ball.promise() == EmptyBall::facing || ball.holds(p)' 'true'
-mutant far_side_passed mean_path_knot_lanes scene/empty_balls.h '1 - 0x1p-10f' '1.02f'
-mutant lane_takes_any_ball own_plate_lanes walk/lane_kernels.cpp \
-  'hn::And(in_ball(p, center, radius2), in_ball(q, center, radius2))' 'in_ball(q, center, radius2)'
+  'if (clear == distance)' 'if (clear > 0)'
+mutant clear_part_not_added mean_path_knot_lanes walk/lane_walks.h 'crossing.distance += clear;' ''
+mutant ball_beyond_counts own_plate_lanes walk/lane_rays.cpp \
+  'if (i > 0) open = hn::And(open, balls.hold(place));' ''
+mutant any_ball_faces own_plate_lanes walk/lane_rays.cpp \
+  'hn::Or(promise(balls, EmptyBall::facing), balls.hold(p))' 'hn::Gt(balls.radius2, set(0))'
+mutant far_side_passed mean_path_knot_lanes walk/lane_rays.cpp '1 - 0x1p-10f' '1.02f'
+mutant lane_takes_any_ball own_plate_lanes walk/lane_regions-inl.h \
+  'hn::And(balls.hold(p), balls.hold(q))' 'balls.hold(q)'
 mutant balls_2_percent_large mean_path_knot_lanes trace/empty_balls.cpp \
   'std::min({distance, room.x, room.y, room.z}) - body_' \
   'Real(1.02) * std::min({distance, room.x, room.y, room.z}) - body_'
 mutant all_balls_face own_plate_lanes trace/empty_balls.cpp 'std::min(radius, depth - rounding)' 'radius'
-mutant edges_missed edges trace/packet_rays.cpp 'hn::Set(F(), 0x1p-23f)' 'hn::Set(F(), -0x1p-23f)'
-mutant first_exit_kept mean_path_plates_lanes trace/packet_rays.cpp \
-  '(found_.kind == ShortExit::Kind::exit && t[i] == distance_)' 'found_.kind == ShortExit::Kind::exit'
-mutant packet_planes_shrunk mean_path_knot_lanes trace/packet_rays.cpp \
+mutant edges_missed edges trace/packet_rays-inl.h 'hn::Set(d, 0x1p-23f)' 'hn::Set(d, -0x1p-23f)'
+mutant first_exit_kept mean_path_plates_lanes trace/ray_batch.cpp \
+  '(t < limit_[pair.ray])' '(t < limit_[pair.ray] && best_[pair.ray] == kNone)'
+mutant packet_planes_shrunk mean_path_knot_lanes trace/packet_rays-inl.h \
   'hn::And(hn::Le(from, slack), hn::Ge(to, hn::Neg(slack)))' \
-  'hn::And(hn::Le(from, hn::Neg(slack)), hn::Ge(to, hn::Set(F(), 0.002f)))'
+  'hn::And(hn::Le(from, hn::Neg(slack)), hn::Ge(to, hn::Set(d, 0.002f)))'
 
 # Paths.
 mutant shadow_roulette_without_factor picture_fog_lanes walk/shadow_roulette.h 'return 1 / p;' 'return 1;'
@@ -93,4 +94,4 @@ mutant pixels_without_corners picture_outline_lanes render/empty_pixels.cpp \
 mutant light_found_not_shared picture_lit walk/passage.inl \
   'average(passed) * pdf + average(weight.ratio) * sampled' 'average(passed) * pdf'
 mutant no_light_at_collisions picture_fog_lanes walk/lane_walks.h \
-  'if (model_.rests_at_collisions) client_.collided(lane, walker, random);' ''
+  'client_.collided(lane, walker, random);' ''

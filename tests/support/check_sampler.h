@@ -22,7 +22,7 @@
 
 namespace meander {
 
-inline constexpr Real kLargestRandom = Real(1) - Real(0x1p-24);
+inline constexpr Real kLargestRandom = Real(1) - std::numeric_limits<Real>::epsilon() / 2;
 inline constexpr Real kRealEpsilon = std::numeric_limits<Real>::epsilon();
 
 /// The larger of two errors, where NaN is the largest.

@@ -39,14 +39,15 @@ struct CsvTable {
   }
 };
 
-/// Reads a file without quoted cells; throws std::runtime_error when it is missing, empty or ragged.
+/// Reads a file without quoted cells, lines that begin with # left out; throws std::runtime_error when it is
+/// missing, empty or ragged.
 [[nodiscard]] inline CsvTable read_csv(const std::string& path, bool header = true) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   CsvTable table;
   for (std::string line; std::getline(file, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty()) continue;
+    if (line.empty() || line.front() == '#') continue;
     std::vector<std::string> cells;
     std::istringstream stream(line);
     for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);

@@ -3,10 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <numeric>
 #include <string>
 
 #include "math/random.h"
 #include "math/warp.h"
+#include "walk/lane_rays.h"
 
 using namespace meander;
 
@@ -144,7 +146,51 @@ TEST_CASE("a step between two points of a ball crosses nothing, a million times 
   }
 }
 
-TEST_CASE("no step into a ball that faces its cell leaves the body, wherever in the cell it starts") {
+namespace {
+
+// A batch of lanes at random points of a mesh's bounds.
+struct Placed {
+  Lanes lanes{};
+  RestingLanes resting{};
+  Vec3 place[kLanes];
+  bool inside[kLanes];
+
+  Placed(const MeshBody& body, Random& random) {
+    for (int i = 0; i < kLanes; ++i) {
+      place[i] = random_point(random, body.half_size());
+      for (int axis = 0; axis < 3; ++axis) lanes.position[axis][i] = static_cast<float>(place[i][axis]);
+      const auto above = body.closest(place[i], {0, 0, 1}, std::numeric_limits<Real>::infinity());
+      inside[i] = above && above->normal.z > 0;
+    }
+  }
+  void give_balls(InstructionSet set, const EmptyBalls& field) {
+    std::uint32_t all[kLanes + 16];
+    std::iota(std::begin(all), std::end(all), 0u);
+    meander::give_balls(set, field, lanes, std::span(all).first(kLanes));
+  }
+  [[nodiscard]] Vec3 to_ball(int lane, Random& random) const {
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    const Vec3 center(lanes.ball_center[0][lane], lanes.ball_center[1][lane], lanes.ball_center[2][lane]);
+    return center + std::sqrt(Real(lanes.ball_radius2[lane])) * sample_sphere({u1, u2}) - place[lane];
+  }
+  // Lets all lanes that have a ball cross along a distance; how far that is clear stands in resting.clear.
+  void cross(InstructionSet set, const EmptyBalls& field, const Vec3 (&direction)[kLanes], float distance) {
+    for (int i = 0; i < kLanes; ++i) {
+      for (int axis = 0; axis < 3; ++axis) lanes.direction[axis][i] = static_cast<float>(direction[i][axis]);
+      lanes.distance[i] = distance;
+      const bool crosses = lanes.ball_radius2[i] > 0;
+      lanes.state[i] = static_cast<std::uint32_t>(crosses ? LaneState::crossing : LaneState::empty);
+    }
+    LaneModel model;
+    model.region = {.kind = SafeRegion::Kind::balls, .balls = &field};
+    find_resting(set, model, lanes, resting);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("no step into the ball of a lane leaves the body, nor any of the part that balls call clear") {
   const Device device = make_device(2);
   for (const Case& c : cases()) {
     CAPTURE(c.name);
@@ -154,24 +200,72 @@ TEST_CASE("no step into a ball that faces its cell leaves the body, wherever in 
     Random random = stream(3, 0, 0);
     std::size_t tested = 0;
     std::size_t left = 0;
-    for (int i = 0; i < 1'000'000; ++i) {
-      const Vec3 p = random_point(random, body.half_size());
-      const EmptyBall ball = field.from(p);
-      if (ball.promise() != EmptyBall::facing) continue;
-      const auto above = body.closest(p, {0, 0, 1}, std::numeric_limits<Real>::infinity());
-      if (!above || above->normal.z < 0) continue;
-      const Real u1 = random.next();
-      const Real u2 = random.next();
-      const Vec3 to = Vec3(ball.center) + std::sqrt(Real(ball.radius2)) * sample_sphere({u1, u2});
-      const Real length = glm::length(to - p);
-      ++tested;
-      left += body.first_crossing_in_tree(p, (to - p) / length, length).kind != CrossingKind::none;
-      const Real clear = field.clear_length(ball, glm::vec3(p), glm::vec3((to - p) / length), 1);
-      left += body.first_crossing_in_tree(p, (to - p) / length, clear).kind != CrossingKind::none;
+    std::size_t long_way = 0;
+    for (std::size_t batch = 0; batch < 4000; ++batch) {
+      const InstructionSet set = instruction_sets()[batch % instruction_sets().size()];
+      Placed placed(body, random);
+      placed.give_balls(set, field);
+      Vec3 direction[kLanes];
+      for (int i = 0; i < kLanes; ++i) {
+        if (!(placed.lanes.ball_radius2[i] > 0)) continue;
+        const Vec3 way = placed.to_ball(i, random);
+        const Real length = glm::length(way);
+        direction[i] = way / length;
+        if (!placed.inside[i]) continue;
+        ++tested;
+        left += body.first_crossing_in_tree(placed.place[i], direction[i], length).kind != CrossingKind::none;
+      }
+      placed.cross(set, field, direction, 1);
+      for (int i = 0; i < kLanes; ++i) {
+        if (!placed.inside[i] || !(placed.lanes.ball_radius2[i] > 0)) continue;
+        const Real clear = placed.resting.clear[i];
+        left += body.first_crossing_in_tree(placed.place[i], direction[i], clear).kind != CrossingKind::none;
+        long_way += clear > glm::length(placed.to_ball(i, random));
+      }
     }
     CHECK(left == 0);
     MESSAGE(c.name << ": " << tested << " steps");
     if (c.covered > 0) CHECK(tested > 1000);
+    if (c.covered > 0) CHECK(long_way > 1000);
+  }
+}
+
+TEST_CASE("crossing lanes get rays for what balls do not answer for") {
+  const Device device = make_device(2);
+  DVec3 center;
+  const MeshBody body(device.get(), make_torus_knot(), DMat3(1), center);
+  const EmptyBalls field = make_empty_balls(body, 2, 64);
+  Random random = stream(5, 0, 0);
+  for (const InstructionSet set : instruction_sets()) {
+    int rays = 0;
+    int none = 0;
+    for (int batch = 0; batch < 50; ++batch) {
+      Placed placed(body, random);
+      placed.give_balls(set, field);
+      Vec3 direction[kLanes];
+      for (Vec3& d : direction) d = sample_sphere({random.next(), random.next()});
+      const float distance = batch % 2 ? 0.01f : 0.2f;
+      placed.cross(set, field, direction, distance);
+      const RestingLanes& resting = placed.resting;
+      for (int i = 0, seen = 0; i < kLanes; ++i) {
+        if (!(placed.lanes.ball_radius2[i] > 0)) continue;
+        REQUIRE(seen < resting.count);
+        CHECK(resting.lane[seen++] == static_cast<std::uint32_t>(i));
+        const float clear = resting.clear[i];
+        CHECK(clear <= distance);
+        none += clear == distance;
+        if (clear == distance) continue;
+        ++rays;
+        const int ray = resting.ray[i];
+        REQUIRE(ray < resting.ray_count);
+        CHECK(resting.rays.distance[ray] == distance - clear);
+        const Vec3 from(resting.rays.from[0][ray], resting.rays.from[1][ray], resting.rays.from[2][ray]);
+        CHECK(glm::length(from - (placed.place[i] + clear * direction[i])) < Real(1e-6));
+        CHECK(resting.rays.direction[1][ray] == static_cast<float>(direction[i].y));
+      }
+    }
+    CHECK(rays > 100);
+    CHECK(none > 100);
   }
 }
 

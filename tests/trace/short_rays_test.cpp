@@ -3,9 +3,12 @@
 #include <cmath>
 #include <string>
 
+#include <hwy/targets.h>
+
 #include "math/random.h"
 #include "math/warp.h"
 #include "trace/mesh_body.h"
+#include "trace/ray_batch.h"
 #include "walk/random_walk.h"
 
 using namespace meander;
@@ -138,6 +141,81 @@ TEST_CASE("short steps cross where the tree says, also at edges and corners") {
     MESSAGE(c.name << ": " << differ << " of 300000 differ");
     CHECK(differ < 1000);
     CHECK(wrong == 0);
+  }
+}
+
+namespace {
+
+struct Searched {
+  Packets packets;
+  SurfaceCells cells;
+
+  Searched(const Mesh& mesh, DVec3& center) {
+    DVec3 low(mesh.positions[0]);
+    DVec3 high(low);
+    for (const DVec3& p : mesh.positions) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    center = 0.5 * (low + high);
+    std::vector<glm::vec3> positions;
+    for (const DVec3& p : mesh.positions) positions.emplace_back(p - center);
+    packets = make_packets(positions, mesh.triangles);
+    cells = make_surface_cells(packets, glm::vec3(0.5 * (high - low)));
+  }
+};
+
+bool same(const ShortExit& a, const ShortExit& b) {
+  if (a.kind != b.kind) return false;
+  if (a.kind != ShortExit::Kind::exit) return true;
+  return a.distance == b.distance && a.u == b.u && a.v == b.v && a.point == b.point && a.normal == b.normal &&
+         a.triangle == b.triangle;
+}
+
+// Rays that are short, a few cells long, too long for the grid, along its axes, or start beyond it.
+ShortRay random_ray(const Mesh& mesh, const DVec3& center, Random& random) {
+  const auto kind = random.next_bits() % 8;
+  const Vec3 p = random_place(mesh, center, kind == 7 ? 3 : Real(0.02), random);
+  Vec3 d = random_direction(random);
+  if (kind == 6) d = {0, 0, random.next() < Real(0.5) ? -1 : 1};
+  const Real scale = kind < 3 ? Real(0.01) : kind < 5 ? Real(0.1) : 2;
+  return {glm::vec3(p), glm::vec3(d), static_cast<float>(-scale * std::log(1 - random.next())) + 1e-6f};
+}
+
+}  // namespace
+
+TEST_CASE("rays side by side find what each finds alone, to the bit, on every instruction set") {
+  for (const Case& c : cases()) {
+    CAPTURE(c.name);
+    DVec3 center;
+    const Searched searched(c.mesh, center);
+    Random random = stream(4, 0, 0);
+    int found[3] = {};
+    int differ = 0;
+    for (std::size_t batch = 0; batch < 300; ++batch) {
+      ShortRays rays{};
+      ShortExit alone[kRayBatch];
+      const std::size_t count = batch < 129 ? batch : 1 + random.next_bits() % kRayBatch;
+      for (std::size_t i = 0; i < count; ++i) {
+        const ShortRay ray = random_ray(c.mesh, center, random);
+        for (int axis = 0; axis < 3; ++axis) {
+          rays.origin[axis][i] = ray.origin[axis];
+          rays.direction[axis][i] = ray.direction[axis];
+        }
+        rays.distance[i] = ray.distance;
+        alone[i] = find_exit(searched.packets, searched.cells, ray);
+        ++found[static_cast<int>(alone[i].kind)];
+      }
+      for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+        hwy::GetChosenTarget().Update(left & -left);
+        ShortExit together[kRayBatch];
+        find_exits(searched.packets, searched.cells, rays, std::span(together).first(count));
+        for (std::size_t i = 0; i < count; ++i) differ += !same(alone[i], together[i]);
+      }
+      hwy::GetChosenTarget().DeInit();
+    }
+    CHECK(differ == 0);
+    for (const int count : found) CHECK(count > 50);
   }
 }
 

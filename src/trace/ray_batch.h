@@ -1,0 +1,24 @@
+// Many short rays at once, see packet_rays.h.
+#pragma once
+
+#include <span>
+
+#include "trace/packet_rays.h"
+
+namespace meander {
+
+/// The most rays of one call.
+inline constexpr std::size_t kRayBatch = 128;
+
+/// Rays in rows.
+struct alignas(64) ShortRays {
+  float origin[3][kRayBatch];
+  float direction[3][kRayBatch];
+  float distance[kRayBatch];
+};
+
+/// What find_exit finds for each of the first rays, as many as there are exits; the same bits.
+void find_exits(const Packets& packets, const SurfaceCells& cells, const ShortRays& rays,
+                std::span<ShortExit> exits) noexcept;
+
+}  // namespace meander
