@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "display/shaders.h"
 #include "gl/state.h"
+#include "scene/precision.h"
 #include "ui/draw.h"
 
 namespace meander {
@@ -58,6 +59,8 @@ Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions
   ui_.hidden = options_.hidden;
   session_ = std::make_unique<Session>(state_.settings.threads);
   for (const std::string& warning : state_.history.now().scene().warnings)
+    state_.tell(MessageKind::warning, warning);
+  for (const std::string& warning : precision_warnings(state_.history.now().scene().scene))
     state_.tell(MessageKind::warning, warning);
   clipboard_ = {[] { return std::string(); }, [](const std::string&) {}};
   files_.watch(state_.history.now().watched_files());

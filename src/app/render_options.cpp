@@ -20,6 +20,7 @@
 #include "io/output_file.h"
 #include "io/scene_file.h"
 #include "render/parallel.h"
+#include "scene/precision.h"
 #include "trace/overlaps.h"
 
 namespace meander {
@@ -192,6 +193,7 @@ Job prepare_job(const RenderOptions& options) {
   check_memory(job);
   if (options.quiet) return job;
   for (const std::string& warning : overlap_warnings(*job.scene, *job.geometry)) warn(warning);
+  for (const std::string& warning : precision_warnings(*job.scene)) warn(warning);
   if (hides_lights(*job.scene))
     warn(
         "point and directional lights cannot be seen through a smooth dielectric: give it a roughness, or "

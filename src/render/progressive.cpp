@@ -132,8 +132,7 @@ Rendering render(const Job& job, const Budget& budget, const std::atomic<bool>& 
   } else {
     done.noise = estimate_noise(done.film, mask);
   }
-  Rendering next;
-  next.film = done.film;
+  Rendering next;  // its film is made in the first pass, and counts as part of it
   if (!prepare_walks(job, stop)) return done;
   const double before = done.seconds;
   const Timer timer;

@@ -289,10 +289,12 @@ auto Geometry::approach(std::size_t object, const Ray& ray, const F& f) const no
   return std::visit([&](const auto& shape) { return f(world_of(shape), seen, placement); }, body.shape);
 }
 
-// Whether the ray has just left the object, outward, and the object is convex: it never comes back.
+// Whether the ray has just left the object, outward, and the object is convex about its centre: it never
+// comes back. From the inner side of an opaque one it does.
 bool Geometry::leaves_for_good(std::size_t object, const Ray& ray) const noexcept {
   return ray.departure.object == object && !traces_rays(object) &&
-         glm::dot(ray.departure.offset, ray.direction) > 0;
+         glm::dot(ray.departure.offset, ray.direction) > 0 &&
+         glm::dot(DVec3(ray.departure.offset), ray.origin - bodies_[object].center) > 0;
 }
 
 // Puts the first surface of one object in the place of a farther one.

@@ -160,10 +160,13 @@ struct PathTracer<G>::Passage {
     }
   }
 
-  // False when the boundary mirrors the path off.
+  // False when the boundary mirrors the path off. A path may begin inside: at the camera, or where it has
+  // left its body and finds itself inside still, as between two surfaces at one place. Then it goes on from
+  // where the ray was traced from: from the surface itself it would leave again at once, and never end.
   [[nodiscard]] bool enter() noexcept {
-    if (!hit.entering) {  // the camera is inside
+    if (!hit.entering) {
       walker.position = Vec3(state.ray.origin - tracer.geometry_.center(hit.object));
+      if (state.ray.departure.object == hit.object) walker.position += state.ray.departure.offset;
       return true;
     }
     if (is_rough()) {

@@ -78,6 +78,7 @@ struct Path {
   Walker walker;
   ShadowRoulette shadows;
   std::uint64_t counted_steps = 0;  // of the walker's
+  std::uint64_t walks = 0;          // that have ended; a path of many short ones asks for the stop among them
 };
 
 /// What a path begins with: a camera ray, the first surface that it meets, and the channel that samples a

@@ -19,6 +19,7 @@ template <SceneGeometry G>
 template <Sink S>
 PathStep PathTracer<G>::begin(Path& path, const PathStart& start, Random& random, S& sink) noexcept {
   path.state = {};
+  path.walks = 0;
   path.state.ray = start.ray;
   path.state.vertex = start.ray.origin;
   if (options_.chromatic)
@@ -35,6 +36,7 @@ PathStep PathTracer<G>::resume(Path& path, const WalkResult& walked, Random& ran
   counters_.steps += path.walker.steps - path.counted_steps;
   path.counted_steps = path.walker.steps;
   if (walked.end == WalkEnd::interrupted) return PathStep::interrupted;
+  if (++path.walks % kStopInterval == 0 && stop()) return PathStep::interrupted;
   switch (Passage<S>{*this, path, random, sink}.end(walked)) {
     case Step::walk:
       return PathStep::walk;

@@ -153,6 +153,24 @@ TEST_CASE("a camera inside a body sees its far side") {
   }
 }
 
+TEST_CASE("a ray off the inner side of a convex body meets it again, one off its outer side does not") {
+  const Transform turned{{3, -2, 7}, {20, 30, 40}, {1, 0.5, 2}};
+  for (const auto& shape : std::vector<decltype(Object::shape)>{SphereShape{}, BoxShape{}, SlabShape{}})
+    for (const double side : {1.0, -1.0}) {
+      Scene scene = one_object(shape, turned, Boundary::matched);
+      scene.materials[0].kind = DiffuseMaterial{};
+      const Geometry geometry(scene, 1);
+      const DVec3& center = turned.translate;
+      const DVec3 up = linear_part(turned)[1];
+      const auto seen = geometry.closest_hit({center + (side > 0 ? 3.0 : 0.0) * up, Vec3(-side * up)});
+      REQUIRE(seen);
+      CHECK(seen->entering == (side > 0));
+      const Vec3 normal = static_cast<Real>(side) * seen->normal;
+      const Departure departure{0, geometry.offset(0, seen->point) * normal};
+      CHECK(geometry.closest_hit({center + DVec3(seen->point), normal, departure}).has_value() == (side < 0));
+    }
+}
+
 TEST_CASE("an unbounded slab is met far from its middle, on its very face") {
   const Geometry geometry(one_object(SlabShape{}, {{0, -1, 0}, DVec3(0), DVec3(1)}, Boundary::diffuse), 1);
   const auto hit = geometry.closest_hit({{0, 1, 0}, glm::normalize(Vec3(1, Real(-1e-4), 0))});

@@ -1,0 +1,82 @@
+#include "stability/bodies.h"
+
+#include <cmath>
+
+namespace meander {
+
+Mesh make_prism(const std::vector<glm::dvec2>& polygon, int along) {
+  Mesh mesh;
+  const auto count = static_cast<std::uint32_t>(polygon.size());
+  const auto rings = static_cast<std::uint32_t>(along);
+  glm::dvec2 middle(0);
+  for (const glm::dvec2& p : polygon) middle += p / double(count);
+  for (std::uint32_t ring = 0; ring <= rings; ++ring)
+    for (const glm::dvec2& p : polygon) mesh.positions.emplace_back(p, -1 + 2.0 * ring / rings);
+  const auto low = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.emplace_back(middle, -1);
+  mesh.positions.emplace_back(middle, 1);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t j = (i + 1) % count;
+    mesh.triangles.push_back({low, j, i});
+    mesh.triangles.push_back({low + 1, rings * count + i, rings * count + j});
+    for (std::uint32_t ring = 0; ring < rings; ++ring) {
+      const std::uint32_t below = ring * count;
+      const std::uint32_t above = below + count;
+      mesh.triangles.push_back({below + i, below + j, above + j});
+      mesh.triangles.push_back({below + i, above + j, above + i});
+    }
+  }
+  return mesh;
+}
+
+Mesh make_cube(int around, int along) {
+  const glm::dvec2 corners[4]{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  std::vector<glm::dvec2> polygon;
+  for (int side = 0; side < 4; ++side)
+    for (int i = 0; i < around; ++i)
+      polygon.push_back(glm::mix(corners[side], corners[(side + 1) % 4], double(i) / around));
+  return make_prism(polygon, along);
+}
+
+Mesh make_pyramid(int sides) {
+  Mesh mesh;
+  const auto count = static_cast<std::uint32_t>(sides);
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * glm::pi<double>() * i / sides;
+    mesh.positions.emplace_back(std::sin(angle), -1, std::cos(angle));
+  }
+  mesh.positions.emplace_back(0, 1, 0);
+  mesh.positions.emplace_back(0, -1, 0);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    mesh.triangles.push_back({i, (i + 1) % count, count});
+    mesh.triangles.push_back({(i + 1) % count, i, count + 1});
+  }
+  return mesh;
+}
+
+Mesh doubled(Mesh mesh) {
+  const std::vector<Triangle> once = mesh.triangles;
+  mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
+  return mesh;
+}
+
+Mesh with_leaf(Mesh mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const glm::dvec2& p : {glm::dvec2(-0.5, -0.5), {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
+    mesh.positions.emplace_back(p, 0.2);
+  for (const Triangle& t : {Triangle{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}})
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  return mesh;
+}
+
+Mesh shifted(Mesh mesh, const DVec3& by) {
+  for (DVec3& position : mesh.positions) position += by;
+  return mesh;
+}
+
+Mesh without_triangle(Mesh mesh, std::size_t number) {
+  mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(number));
+  return mesh;
+}
+
+}  // namespace meander

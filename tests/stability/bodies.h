@@ -1,0 +1,35 @@
+// Closed meshes that are hard on a tracer, each of a body that is simple otherwise.
+#pragma once
+
+#include <vector>
+
+#include "scene/mesh.h"
+
+namespace meander {
+
+/// The cube [-1, 1]^3. Each of its edges about z is cut into `along` pieces, so that the four sides consist
+/// of pairs of triangles across them, and its two ends are fans about their middles, of 4 * `around`
+/// triangles that share one vertex.
+[[nodiscard]] Mesh make_cube(int around = 1, int along = 1);
+
+/// The prism between z = -1 and 1 over a convex polygon, given counter-clockwise as seen from +z; its ends
+/// are fans about the middle.
+[[nodiscard]] Mesh make_prism(const std::vector<glm::dvec2>& polygon, int along = 1);
+
+/// The pyramid with its tip at (0, 1, 0), a regular polygon of `sides` in y = -1 about the origin, radius 1:
+/// `sides` triangles share the tip.
+[[nodiscard]] Mesh make_pyramid(int sides);
+
+/// Every triangle twice, the same way round.
+[[nodiscard]] Mesh doubled(Mesh mesh);
+
+/// With a square within the cube [-1, 1]^3 given from both sides: it encloses nothing.
+[[nodiscard]] Mesh with_leaf(Mesh mesh);
+
+/// All positions moved.
+[[nodiscard]] Mesh shifted(Mesh mesh, const DVec3& by);
+
+/// Without the triangle `number`.
+[[nodiscard]] Mesh without_triangle(Mesh mesh, std::size_t number);
+
+}  // namespace meander
