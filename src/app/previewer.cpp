@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 
 #include "app/preview_commands.h"
 #include "core/error.h"
@@ -58,10 +59,6 @@ Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions
   state_.look = options_.look;
   ui_.hidden = options_.hidden;
   session_ = std::make_unique<Session>(state_.settings.threads);
-  for (const std::string& warning : state_.history.now().scene().warnings)
-    state_.tell(MessageKind::warning, warning);
-  for (const std::string& warning : precision_warnings(state_.history.now().scene().scene))
-    state_.tell(MessageKind::warning, warning);
   clipboard_ = {[] { return std::string(); }, [](const std::string&) {}};
   files_.watch(state_.history.now().watched_files());
   shaders_.watch(shader_stamps_);
@@ -95,7 +92,27 @@ std::optional<double> Previewer::first_image_seconds() const {
   return frame->first_image_seconds;
 }
 
+// What the scene as it now is gives cause to warn of, each once for as long as it does.
+void Previewer::tell_warnings() {
+  const SceneFile& file = state_.history.now().scene();
+  std::vector<std::string> due = file.warnings;
+  std::ranges::copy(precision_warnings(file.scene), std::back_inserter(due));
+  std::erase_if(warnings_, [&](const auto& told) {
+    const bool over = std::ranges::find(due, told.first) == due.end();
+    if (over) state_.withdraw(told.second);
+    return over;
+  });
+  for (const std::string& warning : due) {
+    if (std::ranges::find(warnings_, warning, &std::pair<std::string, std::uint64_t>::first) !=
+        warnings_.end())
+      continue;
+    state_.tell(MessageKind::warning, warning);
+    warnings_.emplace_back(warning, state_.messages.back().id);
+  }
+}
+
 void Previewer::submit(bool interactive) {
+  if (!interactive) tell_warnings();
   Scene scene = *state_.scene;
   const FilmSize film = scene.film;
   scene.film = scaled_film(film, state_.settings.scale);

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/file_watch.h"
 #include "app/navigation.h"
@@ -70,6 +72,7 @@ class Previewer {
  private:
   void submit_if_changed(double now);
   void submit(bool interactive);
+  void tell_warnings();
   void watch_files(double now);
   void reload_scene(bool asked);
   void reload_parts();
@@ -103,6 +106,7 @@ class Previewer {
   FileWatch files_;
   FileWatch shaders_;
   std::vector<FileStamp> refused_files_;  // that the scene file names which could not be read again
+  std::vector<std::pair<std::string, std::uint64_t>> warnings_;  // told of the scene, and their messages
   std::uint64_t scene_error_ = 0;         // the message that the scene file does not read, until it does
   std::uint64_t part_error_ = 0;          // likewise a mesh or a picture
   std::uint64_t shader_error_ = 0;        // likewise of the shaders

@@ -1,6 +1,8 @@
 #include "io/medium_file.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdio>
 
 #include "medium/presets.h"
 
@@ -148,6 +150,20 @@ Coefficients read_coefficients(TomlTable& table, const std::optional<Coefficient
   return invert_color(keys.color, g, keys, tools.color_maps);
 }
 
+// Extinctions are floats; what is below a length of 1e-30 would be none.
+void check_extinction(const TomlTable& table, const Coefficients& coefficients) {
+  const DVec3 sigma_t = sigma_t_of(coefficients);
+  const double most = std::max({sigma_t.x, sigma_t.y, sigma_t.z});
+  if (most <= kLargest * (1 + 1e-9)) return;
+  constexpr std::array<std::string_view, 4> kKeys{"radius", "mean_free_path", "sigma_s", "preset"};
+  const auto* const key = std::ranges::find_if(kKeys, [&](std::string_view name) { return table.has(name); });
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "gives an extinction of %.3g per unit of length, but it must be at most 1e30", most);
+  const std::string name = key == kKeys.end() ? "the medium" : "'" + std::string(*key) + "'";
+  throw Error(key == kKeys.end() ? table.place() : table.place(*key), name + ' ' + text);
+}
+
 void set_sigma(toml::table& table, const Coefficients& coefficients, double millimetres_per_unit) {
   set_triple(table, "sigma_s", coefficients.sigma_s / millimetres_per_unit);
   set_triple(table, "sigma_a", coefficients.sigma_a / millimetres_per_unit);
@@ -192,6 +208,7 @@ MediumKeys read_medium(TomlTable& table, const MediumTools& tools) {
   read_surface(table, preset, keys);
   const auto base = base_of(preset, g, tools.millimetres_per_unit);
   keys.coefficients = read_coefficients(table, base, g, tools, keys);
+  check_extinction(table, keys.coefficients);
   return keys;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/error.h"
@@ -214,13 +215,26 @@ Crossing MeshBody::first_crossing_in_tree(const Vec3& p, const Vec3& d, Real dis
   return finish_crossing(restore(cross_in_tree(p * inverse_scale_, d, distance * inverse_scale_), distance));
 }
 
-// Whether a point next to the surface lies outside of it: whether the nearest surface behind it, seen along
-// its direction, was an exit.
+// Whether rounding has carried a point out of the body: whether the nearest surface behind it, seen along its
+// direction, was an exit, and it is not in front of an entry that is nearer. A walk that has just entered
+// from a narrow gap may lie in that gap by a rounding; taken for one that has left by the wall behind, it
+// would enter at the same point again, and never end.
 bool MeshBody::is_outside(const Vec3& p, const Vec3& d) const noexcept {
-  RTCRayHit query = make_query(p, -d, 2 * kMargin);
-  intersect(scene_.get(), query, nullptr);
-  if (!is_hit(query)) return false;
-  return glm::dot(d, Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z)) > 0;
+  struct Wall {
+    Real height = std::numeric_limits<Real>::infinity();  // of the point over its plane, on either side
+    bool leaves = false;                                  // who passes it along d
+  };
+  const auto nearest_wall = [&](const Vec3& direction) {
+    RTCRayHit query = make_query(p, direction, 2 * kMargin);
+    intersect(scene_.get(), query, nullptr);
+    if (!is_hit(query)) return Wall{};
+    const Real along = glm::dot(d, glm::normalize(Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z)));
+    return Wall{query.ray.tfar * std::abs(along), along > 0};
+  };
+  const Wall behind = nearest_wall(-d);
+  if (!behind.leaves) return false;
+  const Wall ahead = nearest_wall(d);
+  return ahead.leaves || behind.height <= ahead.height;
 }
 
 // A step that meets no exit: inside, unless it ends beyond the bounds. Then it has leaked, and `distance` is

@@ -94,12 +94,13 @@ template <class D, class V>
                   load(packet.corner[1], at) - flight.origin, load(packet.corner[2], at) - flight.origin);
 }
 
-// The exit by one of a packet's triangles.
+// The exit by one of a packet's triangles; unknown where rounding leaves no weights.
 [[nodiscard]] HWY_INLINE ShortExit pick(const Exits<VF>& exits, const Packet& packet, std::size_t at,
                                         std::size_t lane) {
   alignas(32) float rows[6][kPacket];
   const VF values[6] = {exits.t, exits.u, exits.v, exits.normal.x, exits.normal.y, exits.normal.z};
   for (int i = 0; i < 6; ++i) hn::Store(values[i], F(), rows[i]);
+  if (std::isnan(rows[1][lane])) return {};  // seen edge-on, its corners weigh 0 / 0
   const float u = std::clamp(rows[1][lane], 0.0f, 1.0f);
   const float v = std::clamp(rows[2][lane], 0.0f, 1.0f);
   const std::size_t slot = at + lane;

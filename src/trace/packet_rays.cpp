@@ -37,7 +37,7 @@ class ExitSearch {
  private:
   void keep(const Exits<VF>& exits, const Packet& packet, std::size_t at) {
     const float t = hn::GetLane(hn::MinOfLanes(F(), exits.t));
-    if (!(t <= distance_) || (found_.kind == ShortExit::Kind::exit && t == distance_)) return;
+    if (!(t <= distance_) || (found_.kind != ShortExit::Kind::none && t == distance_)) return;
     const auto lane = hn::FindFirstTrue(F(), hn::Eq(exits.t, hn::Set(F(), t)));
     found_ = pick(exits, packet, at, static_cast<std::size_t>(lane));
     distance_ = t;

@@ -14,7 +14,7 @@ struct ShortRay {
 
 /// `distance` along the ray to the first triangle that it leaves by; `point` is there, where the triangle's
 /// second and third corners weigh u and v; `normal` has that triangle's direction outward, and any length.
-/// `unknown`: the ray is too long for the grid, or starts beyond it.
+/// `unknown`: the ray is too long for the grid, starts beyond it, or leaves by a triangle seen edge-on.
 struct ShortExit {
   enum class Kind { unknown, none, exit } kind;
   float distance;

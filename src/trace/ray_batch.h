@@ -17,7 +17,8 @@ struct alignas(64) ShortRays {
   float distance[kRayBatch];
 };
 
-/// What find_exit finds for each of the first rays, as many as there are exits; the same bits.
+/// What find_exit finds for each of the first rays, as many as there are exits (at most kRayBatch); the same
+/// bits. Up to 15 rays beyond are read too: they must hold numbers.
 void find_exits(const Packets& packets, const SurfaceCells& cells, const ShortRays& rays,
                 std::span<ShortExit> exits) noexcept;
 

@@ -60,8 +60,10 @@ HWY_INLINE VF clear_length(const EmptyBalls& field, const Crossings& crossings, 
   const V3 d = load_rows(crossings.direction, at);
   const VF distance = hn::Load(F(), crossings.distance + at);
   const MF real = hn::FirstN(F(), static_cast<std::size_t>(crossings.count - at));
-  MF open = hn::And(real, hn::Gt(hn::Mul(distance, set(field.cells_per_unit)), set(1)));
   Balls balls{load_rows(crossings.center, at), hn::Load(F(), crossings.radius2 + at)};
+  // Without a ball (a negative squared radius) rounding may find one all the same in a large body.
+  MF open = hn::And(real, hn::Gt(balls.radius2, set(0)));
+  open = hn::And(open, hn::Gt(hn::Mul(distance, set(field.cells_per_unit)), set(1)));
   VF clear = set(0);
   for (int i = 0; i < kBalls && !hn::AllFalse(F(), open); ++i) {
     const V3 place = along(p, clear, d);

@@ -13,6 +13,7 @@ namespace meander {
 /// `ray`, where that is not all of it, which of the rays tells about the rest. Room for a vector beyond the
 /// last lane.
 struct RestingLanes {
+  static_assert(kLanes <= Steps::kMost);
   bool wants_rays = true;
   alignas(64) std::uint32_t lane[kLanes + 16];
   int count = 0;
@@ -27,7 +28,7 @@ void find_resting(InstructionSet set, const LaneModel& model, const Lanes& lanes
                   RestingLanes& resting) noexcept;
 
 /// Gives some lanes, whose walks are inside of the body, balls into which no step from there leaves it; none
-/// (a negative squared radius) where none is known.
+/// (a negative squared radius) where none is known. Up to 15 numbers are read beyond the last one.
 void give_balls(InstructionSet set, const EmptyBalls& field, Lanes& lanes,
                 std::span<const std::uint32_t> to) noexcept;
 

@@ -41,6 +41,8 @@ class LaneWalks {
     resting_.wants_rays = kTogether;
   }
 
+  LaneWalks(InstructionSet, const W&&, const LaneModel&, C&) = delete;  // it keeps a reference
+
   /// Runs until the client has no walk left; false when it said stop, which is asked whenever rays are
   /// traced, and every kStopInterval steps at least. Errors: whatever the client throws.
   [[nodiscard]] bool run() {

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -25,6 +26,25 @@ TEST_CASE("an edit before the first frame is in the first picture") {
   const Scene& shown = *previewer.pictures().newest()->scene;
   REQUIRE(shown.lights.size() == 2);
   CHECK(std::get<RectangleLight>(shown.lights[1].shape).radiance == Rgb(0.5f));
+}
+
+TEST_CASE("a scene is warned of once for as long as there is cause, whichever way it came to be") {
+  const Offscreen context(1, 1);
+  PreviewOptions options;
+  options.settings.threads = 1;
+  options.settings.budget.spp = 1;
+  Previewer previewer(context.functions(), Desk::small(kKnot), options, 1);
+  const auto told = [&] {
+    return std::ranges::count(previewer.state().messages, MessageKind::warning, &Message::kind);
+  };
+  CHECK(told() == 0);
+  previewer.apply("material.wax.mean_free_path=1e-7");
+  CHECK(told() == 1);
+  CHECK(previewer.state().messages.back().text.find("is finite but not accurate") != std::string::npos);
+  previewer.apply("light.key.radiance=0.5");
+  CHECK(told() == 1);
+  previewer.apply("material.wax.mean_free_path=0.1");
+  CHECK(told() == 0);
 }
 
 }  // namespace meander

@@ -1,9 +1,12 @@
 // Where the benchmarks' walks enter: the same for the scalar walk and for the lanes.
 #pragma once
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <vector>
 
+#include "math/random.h"
 #include "math/warp.h"
 #include "scene/mesh.h"
 #include "walk/lobe.h"
@@ -17,6 +20,16 @@ inline void enter_sphere(Walker& walker, Random& random) noexcept {
   const Real u2 = random.next();
   walker.position = {0, 0, 1};
   walker.direction = -sample_cosine_hemisphere({u1, u2});
+}
+
+/// Entries are known some walks ahead, as camera rays are: asks for the memory of the one that walk `next` +
+/// 16 begins at, where it has any.
+template <class Start>
+void foresee(const Start& start, std::uint32_t next) noexcept {
+  if constexpr (requires(Random & random) { start.place(random); }) {
+    Random ahead = stream(0, 0, next + 16);
+    hwy::Prefetch(&start.place(ahead));
+  }
 }
 
 /// Diffusely through the middle of any triangle of a mesh whose body is centred on `center`.

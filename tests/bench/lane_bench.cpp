@@ -1,8 +1,6 @@
 // The walk in lanes on one core, in the cases of walk_bench.cpp. Never a test: timings are for reading.
 #include <benchmark/benchmark.h>
 
-#include <hwy/cache_control.h>
-
 #include <chrono>
 #include <cmath>
 
@@ -29,11 +27,7 @@ struct Endless {
   [[nodiscard]] bool start(int, Walker& walker, Random& random) noexcept {
     if (left == 0) return false;
     --left;
-    // Entries are known some walks ahead, as camera rays are.
-    if constexpr (requires { launch.place(random); }) {
-      Random ahead = stream(0, 0, next + 16);
-      hwy::Prefetch(&launch.place(ahead));
-    }
+    foresee(launch, next);
     random = stream(0, 0, next++);
     walker = Walker{};
     launch(walker, random);

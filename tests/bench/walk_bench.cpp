@@ -1,5 +1,5 @@
-// The scalar walk's speed on one core: steps and walks a second in the exact sphere and in the torus knot of
-// 100k triangles, at three mean free paths. Never a test: timings are for reading.
+// The scalar walk's speed on one core: steps and walks a second in the exact sphere, and in a sphere and a
+// torus knot of 100k triangles, at three mean free paths. Never a test: timings are for reading.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -31,6 +31,7 @@ void run_walks(benchmark::State& state, const W& world, Real g, const Start& sta
   double squares = 0;
   SilentEvents events;
   for (auto _ : state) {
+    foresee(start, walk);
     Random random = stream(0, 0, walk++);
     Walker walker;
     start(walker, random);

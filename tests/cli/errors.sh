@@ -58,6 +58,8 @@ printf '%s\n' "${wax/0.9/1.01}" | scene albedo
 refuse "in/albedo.toml:3:10: 'albedo' is 1.01, but must be in [0, 1]" render in/albedo.toml -o out/a.exr
 printf '%s\n' "${wax/0.1/0}" | scene zero
 refuse "in/zero.toml:4:18: 'mean_free_path' is 0, but must be greater than 0" render in/zero.toml -o out/a.exr
+printf '%s\n' "${wax/0.1/1e-39}" | scene dense
+refuse "in/dense.toml:4:18: 'mean_free_path' gives an extinction of 1e+39 per unit of length, but it must be at most 1e30" render in/dense.toml -o out/a.exr
 printf '%s\n[[object]]\nshape = "sphere"\nmaterial = "wax"\ntransform = { scale = -1 }\n' "$wax" | scene scale
 refuse "in/scale.toml:8:23: 'scale' is -1" render in/scale.toml -o out/a.exr
 printf '[film]\nwidth = -5\n' | scene size

@@ -54,6 +54,34 @@ Mesh make_pyramid(int sides) {
   return mesh;
 }
 
+Mesh make_star(int points) {
+  Mesh mesh;
+  const auto count = static_cast<std::uint32_t>(2 * points);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 2 * glm::pi<double>() * i / count;
+    const double radius = i % 2 ? 0.3 : 0.8;
+    mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                                0.1 * std::sin(5 * angle));
+  }
+  mesh.positions.emplace_back(0, 0, 1);
+  mesh.positions.emplace_back(0, 0, -1);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    mesh.triangles.push_back({count, i, (i + 1) % count});
+    mesh.triangles.push_back({count + 1, (i + 1) % count, i});
+  }
+  return mesh;
+}
+
+Mesh make_hollow_cube(double thickness) {
+  Mesh mesh = make_cube();
+  const Mesh hole = make_cube();
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const DVec3& p : hole.positions) mesh.positions.push_back((1 - thickness) * p);
+  for (const Triangle& t : hole.triangles)
+    mesh.triangles.push_back({first + t[0], first + t[2], first + t[1]});
+  return mesh;
+}
+
 Mesh doubled(Mesh mesh) {
   const std::vector<Triangle> once = mesh.triangles;
   mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());

@@ -20,6 +20,13 @@ namespace meander {
 /// `sides` triangles share the tip.
 [[nodiscard]] Mesh make_pyramid(int sides);
 
+/// A star of `points` about z, radii 0.8 and 0.3 in turn, its rim up and down by 0.1, joined to (0, 0, +-1):
+/// towards these its grooves are narrower than any rounding.
+[[nodiscard]] Mesh make_star(int points);
+
+/// The cube [-1, 1]^3 without the cube [-1 + thickness, 1 - thickness]^3.
+[[nodiscard]] Mesh make_hollow_cube(double thickness);
+
 /// Every triangle twice, the same way round.
 [[nodiscard]] Mesh doubled(Mesh mesh);
 

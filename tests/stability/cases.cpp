@@ -57,7 +57,7 @@ Scene with_fault(Scene scene, Fault fault) {
     case Fault::closed:
       edit_meshes(scene, [](const Mesh&) { return make_cube(); });
       break;
-    case Fault::apart:
+    case Fault::alone:
       scene.objects.resize(1);
       break;
   }

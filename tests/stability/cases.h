@@ -28,17 +28,19 @@ struct InDouble {};
 struct Same {
   Scene scene;
 };
-/// Out of what single precision can do, or unknown: values are finite, and stated beside `value` or a walk in
-/// double precision.
+/// Out of what single precision can do, or unknown: values are finite, no brighter than the surround, and
+/// stated beside `value` or a walk in double precision, where there is one off by no more than `within` of
+/// it.
 struct Stated {
   double value = 0;
   bool in_double = false;
+  double within = 0;
 };
 
 /// What is done to a case for its test to fail: albedo 2 % lower, sigma_t twice, 10^4 times or a thousandth
 /// of what it was, a triangle of the mesh dropped, the body 5 % of its size aside, the hole closed, or the
-/// bodies apart.
-enum class Fault { albedo, doubled, dense, diluted, triangle, aside, closed, apart };
+/// second body taken away.
+enum class Fault { albedo, doubled, dense, diluted, triangle, aside, closed, alone };
 
 struct Case {
   std::string group;

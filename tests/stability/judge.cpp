@@ -87,7 +87,9 @@ class Judge {
       verdict.deviation = verdict.stated.value - 1;
       if (!(std::abs(verdict.deviation) <= furnace->tolerance))
         fail("a pixel is off by " + std::to_string(verdict.deviation));
-    } else if (!std::holds_alternative<Stated>(row_.oracle)) {
+    } else if (const auto* stated = std::get_if<Stated>(&row_.oracle)) {
+      check_stated(*stated, seen[kWhole][0], verdict);
+    } else {
       verdict.deviation = worst_z(seen, reference_, is_grey_scene(row_.scene), whole_alone(row_), kFloor);
       if (!(std::abs(verdict.deviation) <= threshold_)) fail("z = " + std::to_string(verdict.deviation));
     }
@@ -105,6 +107,16 @@ class Judge {
     if (row_.leaks != (verdict.leaked > 0))
       fail(std::to_string(verdict.leaked) + " of " + std::to_string(verdict.walks) + " walks leaked");
     if (verdict.walks == 0) fail("no walk");
+  }
+
+  void check_stated(const Stated& stated, const Reading& seen, Verdict& verdict) {
+    const double slack = threshold_ * seen.error + kFloor;
+    if (!(seen.value >= -slack && seen.value <= 1 + slack)) fail("shines: " + std::to_string(seen.value));
+    if (stated.within == 0) return;
+    const Reading& held = reference_[kWhole][0];
+    verdict.deviation = seen.value / held.value - 1;
+    if (!(std::abs(verdict.deviation) <= stated.within + threshold_ * std::hypot(seen.error, held.error)))
+      fail("is off by " + std::to_string(verdict.deviation));
   }
 
   void take_binary_noise(const Rendering& r, std::array<Reading, 3>& whole) const {
@@ -134,12 +146,22 @@ std::string warning_due(const Case& row) {
   return std::string(row.overlaps ? "overlap" : "") + (row.inaccurate ? "precision" : "");
 }
 
-// Whether the case, walked in lanes, fails with its fault planted in it and held against what it was.
-bool finds_fault(const Case& row, const Job& job, const Readings& reference, double threshold) {
+Job job_with(Fault fault, const Case& row, const Job& job) {
   Job faulty = job;
-  faulty.scene = std::make_shared<const Scene>(with_fault(row.scene, row.fault));
+  faulty.scene = std::make_shared<const Scene>(with_fault(row.scene, fault));
   faulty.geometry = std::make_shared<const Geometry>(*faulty.scene, faulty.threads, job.geometry.get());
-  if (warning_of(faulty) != warning_due(row)) return true;
+  return faulty;
+}
+
+// Whether the case, walked in lanes, fails with its fault planted in it and held against what it was. A fault
+// that changes what is warned of is found by that; the image has to find another then, if it is held against
+// anything.
+bool finds_fault(const Case& row, const Job& job, const Readings& reference, double threshold) {
+  Job faulty = job_with(row.fault, row, job);
+  if (warning_of(faulty) != warning_due(row)) {
+    if (std::holds_alternative<Stated>(row.oracle)) return true;
+    faulty = job_with(Fault::albedo, row, job);
+  }
   Judge judge(row, reference, threshold);
   static_cast<void>(judge.verdict(rendered(faulty, row.spp, WalkCode::batch, 2)));
   return !judge.reasons().empty();

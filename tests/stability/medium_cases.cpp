@@ -159,7 +159,7 @@ void add_face_cases(std::vector<Case>& rows) {
       row.inaccurate = ratio < 2e-5;
       if (row.inaccurate && mesh) {
         row.held_against = "half-space, stated";
-        row.oracle = Stated{face_value()};
+        row.oracle = Stated{face_value(), false, 0.01};
         row.fault = Fault::diluted;
       }
       rows.push_back(std::move(row));
@@ -202,8 +202,8 @@ void add_shortest_paths(std::vector<Case>& rows) {
     add(of + "knot", white_surround(knot, white, 2.2));
   }
   Case absorbing{
-      group, "cube mesh, albedo 0.9", "half-space, stated", face_of(shape_of(make_cube(4, 4)), 1e-6),
-      100,   Stated{face_value()},    Fault::diluted};
+      group, "cube mesh, albedo 0.9",          "half-space, stated", face_of(shape_of(make_cube(4, 4)), 1e-6),
+      100,   Stated{face_value(), false, 0.2}, Fault::diluted};
   absorbing.inaccurate = true;
   rows.push_back(std::move(absorbing));
 }

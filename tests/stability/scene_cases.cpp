@@ -59,7 +59,7 @@ void add_overlaps(std::vector<Case>& rows) {
                scene,
                20,
                Furnace{},
-               Fault::apart};
+               Fault::alone};
       if (!white) row.oracle = Stated{};
       row.overlaps = true;
       rows.push_back(std::move(row));

@@ -49,6 +49,12 @@ void add_size_cases(std::vector<Case>& rows) {
     rows.push_back({"far from the origin", name, kInDouble, moved(scene, {1e4, -2e4, 5e3}), 150, InDouble{},
                     Fault::aside});
   }
+  // Seen along lines through its middle: where steps go that are taken for steps in a ball of radius 0 there.
+  Scene hollow = white_surround(shape_of(make_hollow_cube(1e-4)),
+                                TranslucentMaterial{grey(0.5, 0.5), Boundary::matched, 1, 0}, 1e-4);
+  hollow.camera.look_from = {0.75, 0.5, 10};
+  rows.push_back({"scale", "hollow cube 1e6, through its middle", "the same scene, unscaled",
+                  scaled(hollow, 1e6), 300, Same{hollow}, Fault::dense});
   // The distance in the positions of the mesh, and not in its transform.
   const DVec3 by(2e4, -1e4, 5e3);
   Scene far = white_surround(shape_of(shifted(make_cube(4, 4), by)), kMatched, 3);
@@ -141,7 +147,7 @@ void add_mesh_cases(std::vector<Case>& rows) {
                400,
                InDouble{}};
       row.inaccurate = beyond;
-      if (beyond) row.oracle = Stated{0, true};
+      if (beyond) row.oracle = Stated{0, true, 0.005};
       if (beyond) row.fault = Fault::diluted;
       rows.push_back(std::move(row));
     }
@@ -162,6 +168,11 @@ void add_furnace_cases(std::vector<Case>& rows) {
     for (int i = 0; i < 3; ++i)
       rows.push_back({"hard meshes", name + ", white and " + names[i], "furnace",
                       turned(shape_of(mesh), whites[i]), 8, Furnace{}});
+  // Few walks enter where a groove is so narrow that rounding tells on which of its sides they are.
+  Scene star = white_surround(shape_of(make_star(200)), {grey(0.02, 1), Boundary::matched, 1, 0}, 2);
+  star.camera.look_from = {3.5, 2.8, 9};
+  rows.push_back({"hard meshes", "star of 200 points, white and matched", "furnace", star, 800, Furnace{}});
+  rows.back().long_spp = 2;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 //   stability --only TEXT     the cases with that in their group or name
 #include <cstdio>
 #include <fstream>
+#include <stdexcept>
 
 #include "stability/judge.h"
 #include "stats/distributions.h"
@@ -23,9 +24,15 @@ struct Options {
 Options options_of(const std::vector<std::string>& words) {
   Options options;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--long") options.long_run = true;
-    if (words[i] == "--table" && i + 1 < words.size()) options.table = words[i + 1];
-    if (words[i] == "--only" && i + 1 < words.size()) options.only = words[i + 1];
+    const bool has_next = i + 1 < words.size();
+    if (words[i] == "--long")
+      options.long_run = true;
+    else if (words[i] == "--table" && has_next)
+      options.table = words[++i];
+    else if (words[i] == "--only" && has_next)
+      options.only = words[++i];
+    else
+      throw std::invalid_argument("'" + words[i] + "': --long, --table F.csv and --only TEXT are known");
   }
   return options;
 }
@@ -54,6 +61,7 @@ double threshold_of(const std::vector<Case>& rows) {
 int run_all(const std::vector<Case>& rows, const Options& options) {
   const double threshold = threshold_of(rows);
   std::ofstream table(options.table);
+  if (!options.table.empty() && !table) throw std::invalid_argument("cannot write " + options.table);
   if (table.is_open()) table << table_heading() << '\n';
   int failures = 0;
   double seconds = 0;
@@ -75,7 +83,7 @@ int run_all(const std::vector<Case>& rows, const Options& options) {
 
 }  // namespace
 
-int main(int count, char** words) {
+int main(int count, char** words) try {
   const Options options = options_of({words + 1, words + count});
   const std::vector<Case> rows = cases_of(options);
   if (rows.empty()) {
@@ -83,4 +91,7 @@ int main(int count, char** words) {
     return 2;
   }
   return run_all(rows, options);
+} catch (const std::invalid_argument& error) {
+  std::fprintf(stderr, "stability: %s\n", error.what());
+  return 2;
 }

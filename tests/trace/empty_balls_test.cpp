@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 #include <string>
@@ -227,6 +228,35 @@ TEST_CASE("no step into the ball of a lane leaves the body, nor any of the part 
     MESSAGE(c.name << ": " << tested << " steps");
     if (c.covered > 0) CHECK(tested > 1000);
     if (c.covered > 0) CHECK(long_way > 1000);
+  }
+}
+
+TEST_CASE(
+    "lanes without a ball get rays for all of their steps, at any scale, also towards the middle of a ball") {
+  const Device device = make_device(1);
+  for (const double scale : {1e-6, 1.0, 1e4, 1e6}) {
+    CAPTURE(scale);
+    DVec3 center;
+    const MeshBody body(device.get(), make_sphere_mesh(8), DMat3(scale), center);
+    const EmptyBalls field = make_empty_balls(body, 1, 16);
+    LaneModel model;
+    model.region = {.kind = SafeRegion::Kind::balls, .balls = &field};
+    Random random = stream(6, 0, 0);
+    for (int batch = 0; batch < 400; ++batch) {
+      Placed placed(body, random);
+      Lanes& lanes = placed.lanes;
+      for (int i = 0; i < kLanes; ++i) {
+        const Vec3 direction = -glm::normalize(placed.place[i]);  // the middle that a lane has at first is 0
+        for (int axis = 0; axis < 3; ++axis) lanes.direction[axis][i] = static_cast<float>(direction[axis]);
+        lanes.distance[i] = static_cast<float>(2 * scale);
+        lanes.ball_radius2[i] = -1;
+        lanes.state[i] = static_cast<std::uint32_t>(LaneState::crossing);
+      }
+      find_resting(instruction_sets()[static_cast<std::size_t>(batch) % instruction_sets().size()], model,
+                   lanes, placed.resting);
+      REQUIRE(placed.resting.ray_count == kLanes);
+      CHECK(std::ranges::all_of(placed.resting.clear, [](float clear) { return clear == 0; }));
+    }
   }
 }
 

@@ -219,6 +219,76 @@ TEST_CASE("rays side by side find what each finds alone, to the bit, on every in
   }
 }
 
+TEST_CASE("steps from and towards vertices along edges end at a place that is a number") {
+  const Device device = make_device(1);
+  Mesh lattice = make_sphere_mesh(20);
+  for (DVec3& p : lattice.positions) p = glm::round(p * 32.0) / 32.0;  // many triangles are seen edge-on then
+  for (const Case& c : {Case{"lattice", lattice}, Case{"knot", make_torus_knot()}}) {
+    CAPTURE(c.name);
+    DVec3 center;
+    const MeshBody body(device.get(), c.mesh, DMat3(1), center);
+    Random random = stream(7, 0, 0);
+    int lost = 0;
+    for (int batch = 0; batch < 1000; ++batch) {
+      Steps steps{};
+      MeshBody::Begun begun[Steps::kMost];
+      for (std::size_t i = 0; i < Steps::kMost; ++i) {
+        const Triangle& t = c.mesh.triangles[random.next_bits() % c.mesh.triangles.size()];
+        const auto corner = random.next_bits() % 3;
+        const Vec3 a(c.mesh.positions[t[corner]] - center);
+        const Vec3 b(c.mesh.positions[t[(corner + 1) % 3]] - center);
+        if (a == b) continue;
+        const Vec3 d = glm::normalize(b - a);
+        const Vec3 from = i % 2 ? a : a - Real(0.01) * d;
+        for (int axis = 0; axis < 3; ++axis) {
+          steps.from[axis][i] = static_cast<float>(from[axis]);
+          steps.direction[axis][i] = static_cast<float>(d[axis]);
+        }
+        steps.distance[i] = 0.05f;
+        const Crossing alone = body.first_crossing(from, d, Real(0.05));
+        lost += !std::isfinite(glm::dot(alone.point, alone.shading_normal));
+      }
+      body.begin_crossings(steps, begun);
+      for (const MeshBody::Begun& one : begun) {
+        const Crossing crossing = body.finish_crossing(one);
+        lost += !std::isfinite(glm::dot(crossing.point, crossing.shading_normal));
+      }
+    }
+    CHECK(lost == 0);
+  }
+}
+
+TEST_CASE(
+    "a step that starts by a rounding in a narrow gap before its own wall goes in, one past its wall out") {
+  // Plates face to face, the gap between them 1e-5 wide: x from -1 to 0, and from 1e-5 to 1.
+  constexpr double kGap = 1e-5;
+  Mesh mesh = make_box(DVec3(0.5));
+  Mesh other = mesh;
+  for (DVec3& p : mesh.positions) p.x -= 0.5;
+  for (DVec3& p : other.positions) p.x = kGap + (p.x + 0.5) * (1 - kGap);
+  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+  for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  const Device device = make_device(1);
+  DVec3 center;
+  const MeshBody body(device.get(), mesh, DMat3(1), center);
+  Random random = stream(8, 0, 0);
+  for (int i = 0; i < 10000; ++i) {
+    Vec3 d = random_direction(random);
+    d.x = std::abs(d.x) + Real(1e-3);
+    d = glm::normalize(d);
+    const auto place = [&](double x) {
+      return Vec3(DVec3(x, 0.1 * random.next(), 0.1 * random.next()) - center);
+    };
+    const double rounding = 3e-7 * (random.next() - 0.5);
+    const Vec3 entering = place(kGap + rounding);
+    CHECK(body.first_crossing(entering, d, Real(1e-3)).kind == CrossingKind::none);
+    const Vec3 leaving = place(rounding);
+    const Crossing out = body.first_crossing(leaving, d, Real(1e-3));
+    CHECK(out.kind == CrossingKind::exit);
+    CHECK(std::abs(out.point.x - (0 - Real(center.x))) < Real(1e-6));
+  }
+}
+
 TEST_CASE("a closed mesh leaks nothing") {
   const Device device = make_device(1);
   for (const Case& c : cases()) {

@@ -234,7 +234,8 @@ TEST_CASE("every collision that asks for a shadow ray gets to ask once") {
     const LaneModel model{media()[0], sphere_region(2), true};
     const Start start = enter(2, 0);
     Client client(start, 7, 1000);
-    LaneWalks runner(set, SphereWorld{2}, model, client);
+    const SphereWorld world{2};
+    LaneWalks runner(set, world, model, client);
     REQUIRE(runner.run());
     std::uint64_t orders = 0;
     for (const auto& [result, walker] : client.results) orders += walker.weight.order;
