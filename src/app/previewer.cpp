@@ -288,12 +288,13 @@ FilmPlacement Previewer::place_film(const PreviewSurface& surface) const {
 }
 
 void Previewer::draw_interface_over(const PreviewSurface& surface) {
+  const std::optional<PointedPixel> pixel = pointed();
   interface_.begin_frame(surface);
   if (interface_.font_changed()) {
     const FontBitmap font = interface_.font();
     interface_.set_font_texture(interface_view_.upload_font(font.width, font.height, font.coverage));
   }
-  ModelInputs inputs{pictures_, generation_, film_area_, pointed(), paused_};
+  ModelInputs inputs{pictures_, generation_, film_area_, pixel, paused_};
   const UiModel model = make_model(state_, inputs);
   const UiActions actions = options_.only_panel ? draw_panel(*options_.only_panel, model, ui_, layout_.window)
                                                 : draw_interface(model, ui_, layout_);

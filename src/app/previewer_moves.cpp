@@ -18,7 +18,7 @@ constexpr double kTurn = 180;          // degrees of light for a drag over the p
 
 PictureArea Previewer::picture_area() const {
   PictureArea area{layout_.image.x, layout_.image.y, layout_.image.width, std::max(film_area_.height, 1.0f)};
-  area.blocked = interface_.wants_mouse();
+  area.blocked = interface_.wants_mouse(static_cast<float>(navigation_.x), static_cast<float>(navigation_.y));
   return area;
 }
 
@@ -77,9 +77,9 @@ void Previewer::set_gesture(bool on) {
 }
 
 std::optional<PointedPixel> Previewer::pointed() const {
-  if (interface_.wants_mouse() || film_area_.width <= 0) return std::nullopt;
   const auto x = static_cast<float>(navigation_.x);
   const auto y = static_cast<float>(navigation_.y);
+  if (interface_.wants_mouse(x, y) || film_area_.width <= 0) return std::nullopt;
   if (!contains(film_area_, x, y) || !contains(layout_.image, x, y)) return std::nullopt;
   const double across = static_cast<double>((x - film_area_.x) / film_area_.width);
   if (!shows_live(state_.look, across)) return std::nullopt;

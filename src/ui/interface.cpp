@@ -1,6 +1,7 @@
 #include "ui/interface.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -231,9 +232,15 @@ const ImDrawData* Interface::end_frame() {
   return ImGui::GetDrawData();
 }
 
-bool Interface::wants_mouse() const {
-  ImGui::SetCurrentContext(state_->context);
-  return ImGui::GetIO().WantCaptureMouse;
+bool Interface::wants_mouse(float x, float y) const {
+  const ImGuiContext& context = *state_->context;
+  if (context.OpenPopupStack.Size > 0) return true;
+  for (int button = 0; button < IM_ARRAYSIZE(context.IO.MouseDown); ++button)
+    if (context.IO.MouseDown[button] && context.IO.MouseDownOwned[button]) return true;
+  return std::any_of(context.Windows.begin(), context.Windows.end(), [x, y](const ImGuiWindow* window) {
+    return window->Active && !window->Hidden && (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0 &&
+           window->OuterRectClipped.Contains({x, y});
+  });
 }
 
 bool Interface::wants_keyboard() const {

@@ -65,9 +65,10 @@ class Interface {
   /// What is to be drawn, valid until the next frame.
   [[nodiscard]] const ImDrawData* end_frame();
 
-  /// Whether the pointer or the keyboard is the interface's business, not the picture's, as of the last
-  /// frame.
-  [[nodiscard]] bool wants_mouse() const;
+  /// Whether a pointer at x, y points is the interface's business, not the picture's, by what the last frame
+  /// showed there: the pointer may have come from elsewhere since. Not to be asked within a frame.
+  [[nodiscard]] bool wants_mouse(float x, float y) const;
+  /// Likewise the keyboard, as of the last frame.
   [[nodiscard]] bool wants_keyboard() const;
   [[nodiscard]] PointerShape pointer_shape() const;
 

@@ -47,4 +47,45 @@ TEST_CASE("a scene is warned of once for as long as there is cause, whichever wa
   CHECK(told() == 0);
 }
 
+TEST_CASE("a press is the picture's or the interface's by where it was made, however slow the frames are") {
+  const Offscreen context(1280, 720);
+  PreviewOptions options;
+  options.settings.threads = 1;
+  options.settings.budget.spp = 1;
+  Previewer previewer(context.functions(), Desk::small(kKnot), options, 1);
+  FrameShape shape;
+  shape.pixels_wide = 1280;
+  shape.pixels_high = 720;
+  const auto send = [&](InputKind kind, double x, double y, bool down = false) {
+    InputEvent event;
+    event.kind = kind;
+    event.x = x;
+    event.y = y;
+    event.down = down;
+    previewer.feed(event);
+  };
+  const auto drag_from = [&](double x, double y) {
+    send(InputKind::move, x, y);
+    send(InputKind::button, x, y, true);
+    send(InputKind::move, x + 60, y);
+    send(InputKind::button, x + 60, y, false);
+  };
+  const auto draw = [&] {
+    for (int frame = 0; frame < 6; ++frame) previewer.draw(shape);
+  };
+  const auto edited = [&] { return previewer.title().starts_with('*'); };
+  draw();
+  send(InputKind::move, 600, 708);  // the status line
+  draw();
+  drag_from(450, 330);
+  CHECK(edited());
+  draw();
+  previewer.carry_out({CommandKind::undo, 0, 0, {}, {}});
+  CHECK_FALSE(edited());
+  previewer.carry_out({CommandKind::help, 0, 0, {}, {}});
+  draw();
+  drag_from(640, 360);  // over the picture, were it not for the help
+  CHECK_FALSE(edited());
+}
+
 }  // namespace meander

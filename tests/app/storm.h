@@ -79,6 +79,7 @@ class Storm {
   [[nodiscard]] Image8 screen() { return target_->read(width_, height_); }
   int refused = 0;   // edits that no scene allows
   int pictures = 0;  // frames that showed another picture than the frame before
+  int grey = 0;      // frames whose picture happened to be as grey as what is around it
 
  private:
   double number(double low, double high) {
@@ -103,7 +104,9 @@ class Storm {
   void drop();
   void undo_run();
   void send(InputKind kind, double x, double y, int code = 0, bool down = false, Modifiers modifiers = {});
-  void check_picture(const Image8& shown) const;
+  void draw();
+  [[nodiscard]] int count_drawn(const Image8& shown) const;
+  void check_picture();
 
   const Folder& folder_;
   std::mt19937 random_;

@@ -67,11 +67,13 @@ TEST_CASE("a hidden interface draws nothing") {
   window.model.overlay.region = PixelBox{10, 10, 50, 50};
   window.frame();
   CHECK(window.drawn->TotalVtxCount > 1000);
+  const Area panel = window.layout().panel;
+  CHECK(window.interface.wants_mouse(panel.x + 20, panel.y + 20));
   window.state.hidden = true;
   window.frame();
   window.frame();
   CHECK(window.drawn->TotalVtxCount == 0);
-  CHECK_FALSE(window.interface.wants_mouse());
+  CHECK_FALSE(window.interface.wants_mouse(panel.x + 20, panel.y + 20));
 }
 
 TEST_CASE("dragging a slider edits, in one gesture, and holds the ratios") {
@@ -79,7 +81,7 @@ TEST_CASE("dragging a slider edits, in one gesture, and holds the ratios") {
   window.frame();
   const ImVec2 at = find_control(window, window.layout().panel, panel_id("Material", "##length"));
   CHECK(window.interface.pointer_shape() == PointerShape::horizontal);
-  CHECK(window.interface.wants_mouse());
+  CHECK(window.interface.wants_mouse(at.x, at.y));
   const UiActions pressed = window.frame({button(at.x + 20, at.y, true)});
   CHECK(pressed.gesture_started);
   CHECK_FALSE(pressed.gesture_ended);
@@ -229,17 +231,17 @@ TEST_CASE("the wipe line is dragged, and the picture beside it is left to the ca
   window.model.overlay.film = {0, 38, 900, 506};
   window.model.view.comparison = CompareMode::wipe;
   window.frame();
+  CHECK(window.interface.wants_mouse(450, 250));
+  CHECK_FALSE(window.interface.wants_mouse(200, 250));
   window.frame({move_to(450, 250)});
-  CHECK(window.interface.wants_mouse());
   window.frame({button(450, 250, true)});
   const UiActions actions = window.frame({move_to(675, 250)});
   REQUIRE(actions.commands.size() == 1);
   CHECK(actions.commands[0].kind == CommandKind::set_wipe);
   CHECK(actions.commands[0].value == doctest::Approx(0.75));
+  CHECK(window.interface.wants_mouse(200, 250));  // while the line is held
   window.frame({button(675, 250, false)});
-  window.frame({move_to(200, 250)});
-  window.frame();
-  CHECK_FALSE(window.interface.wants_mouse());
+  CHECK_FALSE(window.interface.wants_mouse(200, 250));
 }
 
 TEST_CASE("messages are closed by their number") {

@@ -49,6 +49,12 @@ def looks_around():
     preview.key("ctrl+z")
     preview.returns(first, IMAGE, "one undo takes the whole drag back, and the picture is the same to the bit")
     wait(lambda: not preview.title().startswith("*"), "the title says that the scene is as it was")
+    preview.process.send_signal(signal.SIGSTOP)  # all of a drag between two frames
+    preview.drag(450, 330, 570, 330)
+    preview.process.send_signal(signal.SIGCONT)
+    wait(lambda: preview.title().startswith("*"), "a drag is not lost in a slow frame")
+    preview.key("ctrl+z")
+    preview.returns(first, IMAGE, "one undo takes this drag back, too")
     preview.key("6")
     preview.changes(first, IMAGE, 10, "the normals are another picture")
     preview.key("1", "shift+e")
