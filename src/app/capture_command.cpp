@@ -11,6 +11,7 @@
 #include "app/preview_loops.h"
 #include "app/render_options.h"
 #include "app/run_stats.h"
+#include "app/scene_warnings.h"
 #include "core/error.h"
 #include "display/capture.h"
 #include "io/image_file.h"
@@ -112,12 +113,13 @@ int capture_window(const RenderOptions& options, const CaptureLook& look) {
   if (!look.panel.empty()) preview.only_panel = static_cast<PanelName>(index_of(kPanelNames, look.panel));
   preview.watches_files = false;
   const OffscreenPreview asked = offscreen_of(look, document.scene().scene.film);
-  const Image8 frame = run_offscreen(document, preview, asked, watch_interrupts());
+  const auto [frame, warnings] = run_offscreen(document, preview, asked, watch_interrupts());
   write_png(options.output, frame,
             {{{"meander/scene", options.scene}, {"meander/version", version_text()}}, {}});
-  if (!options.quiet)
-    std::fprintf(stderr, "%s: the previewer's window, %d x %d pixels\n", options.output.c_str(), frame.width,
-                 frame.height);
+  if (options.quiet) return 0;
+  for (const std::string& warning : warnings) warn(warning);
+  std::fprintf(stderr, "%s: the previewer's window, %d x %d pixels\n", options.output.c_str(), frame.width,
+               frame.height);
   return 0;
 }
 

@@ -30,9 +30,14 @@ struct OffscreenPreview {
   std::optional<PlayedScript> script;
 };
 
+struct OffscreenFrame {
+  Image8 image;
+  std::vector<std::string> warnings;  // that the scene gives cause for
+};
+
 /// Plays the script, renders until the budget is met, and returns the last frame: what the window would show.
 /// Error (runtime) when `stop` became true before the first picture.
-[[nodiscard]] Image8 run_offscreen(const SceneDocument& document, const PreviewOptions& options,
-                                   const OffscreenPreview& asked, const std::atomic<bool>& stop);
+[[nodiscard]] OffscreenFrame run_offscreen(const SceneDocument& document, const PreviewOptions& options,
+                                           const OffscreenPreview& asked, const std::atomic<bool>& stop);
 
 }  // namespace meander

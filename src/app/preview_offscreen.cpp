@@ -61,8 +61,8 @@ void refuse_nothing(const Previewer& previewer, bool stopped) {
 
 }  // namespace
 
-Image8 run_offscreen(const SceneDocument& document, const PreviewOptions& options,
-                     const OffscreenPreview& asked, const std::atomic<bool>& stop) {
+OffscreenFrame run_offscreen(const SceneDocument& document, const PreviewOptions& options,
+                             const OffscreenPreview& asked, const std::atomic<bool>& stop) {
   const Offscreen context(1, 1);
   const Functions& gl = context.functions();
   Previewer previewer(gl, document, options, asked.scale);
@@ -101,7 +101,7 @@ Image8 run_offscreen(const SceneDocument& document, const PreviewOptions& option
     if (!due) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   if (previewer.spp() == 0 && !quit && !previewer.closing()) refuse_nothing(previewer, stop);
-  return easel.read();
+  return {easel.read(), previewer.warnings()};
 }
 
 }  // namespace meander

@@ -19,7 +19,7 @@ namespace meander {
 /// How the picture is rendered; a change of it, budget and threads aside, restarts the picture.
 struct PreviewSettings {
   int scale = 100;  // percent of the film's size
-  int threads = 1;
+  int threads = 1;  // 0: all
   std::uint64_t seed = 0;
   Estimator estimator = Estimator::implicit;
   WalkCode walk = WalkCode::batch;

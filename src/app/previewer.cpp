@@ -9,24 +9,26 @@
 #include "core/error.h"
 #include "display/shaders.h"
 #include "gl/state.h"
-#include "scene/precision.h"
+#include "render/parallel.h"
 #include "ui/draw.h"
 
 namespace meander {
 namespace {
 
-constexpr double kWatchSeconds = 0.4;    // between two looks at the files
 constexpr double kRefineSeconds = 0.15;  // a held drag that rests this long is refined
 constexpr double kTickSeconds = 0.1;     // the status line's pace while the session works
 constexpr double kLeastFrameSeconds = 1.0 / 40;
 constexpr double kMessageSeconds = 6;
 constexpr float kBackdrop = 0.105f;  // around the picture
-constexpr int kSettleFrames = 3;     // Dear ImGui needs some frames to come to rest
 
 std::vector<FileStamp> shader_stamps() {
   std::vector<FileStamp> stamps;
   for (const std::string& file : shader_files()) stamps.push_back(stamp_before_reading(file));
   return stamps;
+}
+
+int threads_of(const PreviewSettings& settings) {
+  return settings.threads > 0 ? settings.threads : hardware_threads();
 }
 
 // Everything that an image depends on, as text: what the display does with it is left out.
@@ -58,7 +60,7 @@ Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions
   state_.settings = options_.settings;
   state_.look = options_.look;
   ui_.hidden = options_.hidden;
-  session_ = std::make_unique<Session>(state_.settings.threads);
+  session_ = std::make_unique<Session>(threads_of(state_.settings));
   clipboard_ = {[] { return std::string(); }, [](const std::string&) {}};
   files_.watch(state_.history.now().watched_files());
   shaders_.watch(shader_stamps_);
@@ -90,25 +92,6 @@ std::optional<double> Previewer::first_image_seconds() const {
   const auto& frame = pictures_.newest();
   if (!frame || frame->generation != generation_) return std::nullopt;
   return frame->first_image_seconds;
-}
-
-// What the scene as it now is gives cause to warn of, each once for as long as it does.
-void Previewer::tell_warnings() {
-  const SceneFile& file = state_.history.now().scene();
-  std::vector<std::string> due = file.warnings;
-  std::ranges::copy(precision_warnings(file.scene), std::back_inserter(due));
-  std::erase_if(warnings_, [&](const auto& told) {
-    const bool over = std::ranges::find(due, told.first) == due.end();
-    if (over) state_.withdraw(told.second);
-    return over;
-  });
-  for (const std::string& warning : due) {
-    if (std::ranges::find(warnings_, warning, &std::pair<std::string, std::uint64_t>::first) !=
-        warnings_.end())
-      continue;
-    state_.tell(MessageKind::warning, warning);
-    warnings_.emplace_back(warning, state_.messages.back().id);
-  }
 }
 
 void Previewer::submit(bool interactive) {
@@ -183,80 +166,6 @@ void Previewer::take_drop(const InputEvent& event) {
   }
 }
 
-std::uint64_t Previewer::tell_error(const Error& error) {
-  state_.tell(MessageKind::error, error.what());
-  return state_.messages.back().id;
-}
-
-// The scene file as it now is on disk, with the edits of the command line. Unless it was asked for, nothing
-// where the file says what it said when it was read or saved here: edits since then stay.
-void Previewer::reload_scene(bool asked) {
-  frames_due_ = kSettleFrames;
-  state_.withdraw(scene_error_);
-  refused_files_.clear();
-  const SceneDocument& now = state_.history.now();
-  try {
-    SceneDocument fresh = now.reopened();
-    if (!asked && fresh == state_.original) return;
-    for (const std::string& edit : options_.edits) fresh.apply(edit);
-    if (fresh == now || (!asked && fresh == state_.original)) return;
-    state_.change(std::move(fresh));
-    state_.settle();
-    state_.withdraw(part_error_);
-    state_.tell(MessageKind::note, "reloaded the scene");
-  } catch (const Error& error) {
-    scene_error_ = tell_error(error);
-    refused_files_ = now.reopened_files();
-  }
-}
-
-// Meshes and pictures as they now are on disk; what was edited stays.
-void Previewer::reload_parts() {
-  frames_due_ = kSettleFrames;
-  state_.withdraw(part_error_);
-  try {
-    state_.resolve();
-    submit(false);
-    state_.tell(MessageKind::note, "reloaded what changed on disk");
-  } catch (const Error& error) {
-    part_error_ = tell_error(error);
-  }
-}
-
-void Previewer::reload_shaders() {
-  frames_due_ = kSettleFrames;
-  state_.withdraw(shader_error_);
-  try {
-    pictures_.reload();
-    interface_view_.reload();
-    state_.tell(MessageKind::note, "reloaded the shaders");
-  } catch (const Error& error) {
-    shader_error_ = tell_error(error);
-  }
-}
-
-void Previewer::watch_files(double now) {
-  if (!options_.watches_files || now - last_watch_ < kWatchSeconds) return;
-  last_watch_ = now;
-  const std::vector<FileStamp> files = state_.history.now().watched_files();
-  const std::string scene = files.front().path;
-  // A scene that was refused is read again when anything that it names changes.
-  if (!refused_files_.empty() && refused_files_.front().path != scene) refused_files_.clear();
-  const bool refused = !refused_files_.empty();
-  std::vector<FileStamp> all = files;
-  all.insert(all.end(), refused_files_.begin(), refused_files_.end());
-  files_.watch(all);
-  const std::vector<std::string> changed = files_.changed();
-  // A bare mesh in the studio is a part like any other.
-  const bool is_text = std::filesystem::path(scene).extension() == ".toml";
-  const auto has_changed = [&](const FileStamp& file) {
-    return std::find(changed.begin(), changed.end(), file.path) != changed.end();
-  };
-  if (std::any_of(files.begin() + (is_text ? 1 : 0), files.end(), has_changed)) reload_parts();
-  if ((is_text && has_changed(files.front())) || (refused && !changed.empty())) reload_scene(false);
-  if (!shaders_.changed().empty()) reload_shaders();
-}
-
 bool Previewer::update(double now) {
   const double passed = now - now_;
   now_ = now;
@@ -271,6 +180,7 @@ bool Previewer::update(double now) {
   submit_if_changed(now);
   if (const auto error = session_->take_error()) state_.tell(MessageKind::error, *error);
   const bool fresh = pictures_.take(session_->latest());
+  if (fresh && pictures_.newest()->overlaps) tell_warnings();
   if (fresh) frames_due_ = std::max(frames_due_, 1);
   if (state_.messages.size() != messages) frames_due_ = std::max(frames_due_, kSettleFrames);
   if (interface_.pending()) frames_due_ = std::max(frames_due_, 1);
@@ -379,7 +289,7 @@ void Previewer::carry_out(const Command& command) {
       reload_shaders();
     } else if (command.kind == CommandKind::threads) {
       state_.settings.threads = static_cast<int>(command.index);
-      session_ = std::make_unique<Session>(state_.settings.threads, generation_);
+      session_ = std::make_unique<Session>(threads_of(state_.settings), generation_);
       session_->set_paused(paused_);
       submit(false);
     } else {

@@ -66,10 +66,14 @@ class Previewer {
   [[nodiscard]] std::optional<double> first_image_seconds() const;
   [[nodiscard]] const PreviewState& state() const noexcept { return state_; }
   [[nodiscard]] const PreviewPictures& pictures() const noexcept { return pictures_; }
+  /// What the scene gives cause to warn of, as the picture says so far: overlaps come with full resolution.
+  [[nodiscard]] std::vector<std::string> warnings() const;
   /// The window's title.
   [[nodiscard]] std::string title() const;
 
  private:
+  static constexpr int kSettleFrames = 3;  // Dear ImGui needs some frames to come to rest
+
   void submit_if_changed(double now);
   void submit(bool interactive);
   void tell_warnings();
@@ -107,9 +111,10 @@ class Previewer {
   FileWatch shaders_;
   std::vector<FileStamp> refused_files_;  // that the scene file names which could not be read again
   std::vector<std::pair<std::string, std::uint64_t>> warnings_;  // told of the scene, and their messages
-  std::uint64_t scene_error_ = 0;         // the message that the scene file does not read, until it does
-  std::uint64_t part_error_ = 0;          // likewise a mesh or a picture
-  std::uint64_t shader_error_ = 0;        // likewise of the shaders
+  std::vector<std::string> overlaps_;  // of bodies, by the newest picture that knows
+  std::uint64_t scene_error_ = 0;      // the message that the scene file does not read, until it does
+  std::uint64_t part_error_ = 0;       // likewise a mesh or a picture
+  std::uint64_t shader_error_ = 0;     // likewise of the shaders
   Layout layout_;
   Area film_area_;  // the film's picture in the window, points of the interface
   float pointer_scale_ = 1;

@@ -15,30 +15,16 @@
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/run_stats.h"
+#include "app/scene_warnings.h"
 #include "core/error.h"
 #include "io/checkpoint_file.h"
 #include "io/output_file.h"
 #include "io/scene_file.h"
 #include "render/parallel.h"
-#include "scene/precision.h"
 #include "trace/overlaps.h"
 
 namespace meander {
 namespace {
-
-void warn(const std::string& text) { std::cerr << "meander: warning: " << text << '\n'; }
-
-// Whether a light that no ray can hit stands before a body that lets no light be sampled through its surface.
-bool hides_lights(const Scene& scene) {
-  const bool delta = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-    return std::holds_alternative<PointLight>(light.shape) ||
-           std::holds_alternative<DirectionalLight>(light.shape);
-  });
-  return delta && std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-           const auto* body = std::get_if<TranslucentMaterial>(&scene.materials[object.material].kind);
-           return body && body->boundary == Boundary::dielectric && body->roughness == 0;
-         });
-}
 
 std::optional<Tile> crop_of(const RenderOptions& options, const FilmSize& film) {
   if (options.crop.empty()) return std::nullopt;
@@ -193,11 +179,7 @@ Job prepare_job(const RenderOptions& options) {
   check_memory(job);
   if (options.quiet) return job;
   for (const std::string& warning : overlap_warnings(*job.scene, *job.geometry)) warn(warning);
-  for (const std::string& warning : precision_warnings(*job.scene)) warn(warning);
-  if (hides_lights(*job.scene))
-    warn(
-        "point and directional lights cannot be seen through a smooth dielectric: give it a roughness, or "
-        "the light a size");
+  for (const std::string& warning : scene_warnings(*job.scene)) warn(warning);
   return job;
 }
 

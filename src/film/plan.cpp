@@ -9,6 +9,8 @@ namespace meander {
 namespace {
 
 constexpr std::uint64_t kLeastBelievedSpp = 16;
+constexpr double kPassOfTime = 0.05;     // of the time given: a pass that the end breaks off is lost
+constexpr double kLeastLongest = 0.05;   // seconds
 constexpr double kUnreliablePart = 0.5;  // of the error asked for, at which an unreliable noise is believed
 
 /// `pass`, but at most `limit`, which may lie beyond the integers or be infinite, and at least 1.
@@ -59,6 +61,7 @@ std::uint64_t next_pass(const Progress& progress, const Budget& budget, double l
 
   const double rate = seconds_per_sample(progress);
   std::uint64_t pass = progress.spp;
+  if (budget.seconds) longest = std::min(longest, std::max(kPassOfTime * *budget.seconds, kLeastLongest));
   if (rate > 0) pass = limited(pass, std::floor(longest / rate));
   if (budget.spp) pass = std::min(pass, *budget.spp - progress.spp);
   if (budget.error) pass = limited(pass, samples_to_error(progress, *budget.error));

@@ -29,14 +29,14 @@ enum class Ending { none, spp, seconds, error };
 inline constexpr double kLongestPass = 0.5;  // seconds: how long a viewer may have to wait
 
 /// Samples a pixel in the next pass, 0 when the image is done. Passes double the total (1, 1, 2, 4, …), but
-/// none past the first is predicted to take over `longest` seconds (or one sample), to pass `spp`, or to pass
-/// the samples at which the noise, falling as 1/sqrt(spp), reaches `error`. Noise is believed from 16 samples
-/// on, where it is on average up to 9 % too low (tests/calibration), and less later. One that is unreliable
-/// is believed when it is half of `error`: it falls short, and does so less and less, so that four times the
-/// samples give it the chance to show; a scene that stays unreliable ends all the same. The time left is
-/// filled with the nearest whole number of predicted samples, so the end is off by half a sample's time at
-/// most when the prediction holds. An image of no samples takes its first whatever the time, unless `spp` is
-/// 0.
+/// none past the first is predicted to take over `longest` seconds or a twentieth of `seconds` (though 0.05 s
+/// and one sample are allowed), to pass `spp`, or to pass the samples at which the noise, falling as
+/// 1/sqrt(spp), reaches `error`. Noise is believed from 16 samples on, where it is on average up to 9 % too
+/// low (tests/calibration), and less later. One that is unreliable is believed when it is half of `error`: it
+/// falls short, and does so less and less, so that four times the samples give it the chance to show; a scene
+/// that stays unreliable ends all the same. The time left is filled with the nearest whole number of
+/// predicted samples, so the end is off by half a sample's time at most when the prediction holds. An image
+/// of no samples takes its first whatever the time, unless `spp` is 0.
 [[nodiscard]] std::uint64_t next_pass(const Progress& progress, const Budget& budget,
                                       double longest = kLongestPass) noexcept;
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "film/film_planes.h"
@@ -45,8 +46,10 @@ struct LiveFrame {
   PathCounters counters;         // of this image
   std::uint64_t non_finite = 0;  // samples that were not finite, taken as black
   std::vector<NoisePoint>
-      history;                     // of this generation, after every full-resolution pass from two samples on
-  bool complete = false;           // its budget is met
+      history;            // of this generation, after every full-resolution pass from two samples on
+  bool complete = false;  // its budget is met
+  // Which bodies overlap (trace/overlaps.h): known at full resolution.
+  std::optional<std::vector<std::string>> overlaps;
   double first_image_seconds = 0;  // from submit() to the first frame of this generation
   double waited_seconds = 0;       // from submit() until the worker took it up: how long the stop took
 };

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/timer.h"
 #include "render/parallel.h"
+#include "trace/overlaps.h"
 
 namespace meander {
 namespace {
@@ -169,6 +170,8 @@ std::shared_ptr<LiveFrame> LiveImage::render_pass(const std::atomic<bool>& stop)
   frame->noise = done_->noise.noise;
   frame->noise_reliable = done_->noise.reliable();
   frame->history = history_;
+  if (!overlaps_) overlaps_ = overlap_warnings(*job_.scene, *job_.geometry);
+  frame->overlaps = overlaps_;
   frame->complete = next_samples() == 0;
   shown_complete_ = frame->complete;
   shown_ = true;

@@ -63,6 +63,7 @@ class LiveImage {
   double spent_ = 0;  // seconds, on coarse images
   std::shared_ptr<const Rendering> done_;
   std::vector<NoisePoint> history_;
+  std::optional<std::vector<std::string>> overlaps_;
   bool shown_ = false;  // some image
   bool shown_complete_ = false;
 };

@@ -19,6 +19,10 @@ DVec3 direction_of(int i) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
+bool are_apart(const Geometry& geometry, std::size_t a, std::size_t b) {
+  return glm::distance(geometry.center(a), geometry.center(b)) > geometry.radius(a) + geometry.radius(b);
+}
+
 // Whether some points just inside of object a's surface lie inside of object b.
 bool reaches_into(const Geometry& geometry, std::size_t a, std::size_t b) {
   const double size = geometry.size(a);
@@ -41,7 +45,7 @@ std::vector<std::string> overlap_warnings(const Scene& scene, const Geometry& ge
   std::vector<std::string> warnings;
   for (std::size_t a = 0; a < scene.objects.size(); ++a) {
     for (std::size_t b = a + 1; b < scene.objects.size(); ++b) {
-      if (!is_translucent(scene, a) || !is_translucent(scene, b)) continue;
+      if (!is_translucent(scene, a) || !is_translucent(scene, b) || are_apart(geometry, a, b)) continue;
       if (!reaches_into(geometry, a, b) && !reaches_into(geometry, b, a)) continue;
       warnings.push_back("objects '" + scene.objects[a].name + "' and '" + scene.objects[b].name +
                          "' overlap: a walk sees only its own body's surface, so light there is not right");

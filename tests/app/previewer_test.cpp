@@ -47,6 +47,49 @@ TEST_CASE("a scene is warned of once for as long as there is cause, whichever wa
   CHECK(told() == 0);
 }
 
+TEST_CASE("bodies that overlap are warned of with the first full picture, until they are moved apart") {
+  const Offscreen context(1, 1);
+  const SceneDocument document = SceneDocument::from_text(
+      "[camera]\nlook_from = [0, 0, 6]\nlook_at = [0, 0, 0]\n[film]\nwidth = 16\nheight = 9\n"
+      "[[material]]\nname = \"wax\"\nalbedo = 0.5\nmean_free_path = 0.5\n"
+      "[[object]]\nname = \"a\"\nshape = \"sphere\"\nmaterial = \"wax\"\n"
+      "[[object]]\nname = \"b\"\nshape = \"sphere\"\nmaterial = \"wax\"\ntransform = { translate = [1.5, 0, "
+      "0] }\n",
+      "two.toml");
+  PreviewOptions options;
+  options.settings.threads = 1;
+  options.settings.budget.spp = 1;
+  Previewer previewer(context.functions(), document, options, 1);
+  const auto warnings_of_picture = [&] {
+    for (const Timer timer; timer.seconds() < 60 && previewer.spp() < 1;) {
+      (void)previewer.update(timer.seconds());
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    REQUIRE(previewer.spp() == 1);
+    return previewer.warnings();
+  };
+  CHECK(previewer.warnings().empty());
+  REQUIRE(warnings_of_picture().size() == 1);
+  CHECK(previewer.warnings()[0].find("'a' and 'b' overlap") != std::string::npos);
+  CHECK(previewer.state().messages.back().text == previewer.warnings()[0]);
+  previewer.apply("object.b.transform={ translate = [2.5, 0, 0] }");
+  CHECK(warnings_of_picture().empty());
+  CHECK(previewer.state().messages.empty());
+}
+
+TEST_CASE("the slider of the threads at its lower end means all of them") {
+  const Offscreen context(1, 1);
+  PreviewOptions options;
+  options.settings.budget.spp = 1;
+  Previewer previewer(context.functions(), Desk::small(kKnot), options, 1);
+  previewer.carry_out({CommandKind::threads, 0, 0, {}, {}});
+  for (const Timer timer; timer.seconds() < 60 && previewer.spp() < 1;) {
+    (void)previewer.update(timer.seconds());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  CHECK(previewer.spp() == 1);
+}
+
 TEST_CASE("a press is the picture's or the interface's by where it was made, however slow the frames are") {
   const Offscreen context(1280, 720);
   PreviewOptions options;

@@ -106,7 +106,7 @@ Command Storm::a_command() {
     case 4:
       return {region_only, whole(0, 1), 0, {}, {}};
     case 5:
-      return {threads, whole(1, 3), 0, {}, {}};
+      return {threads, whole(0, 3), 0, {}, {}};  // 0: all
     case 6:
       return {estimator, whole(0, 1), 0, {}, {}};
     case 7:

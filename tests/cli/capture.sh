@@ -90,6 +90,9 @@ printf 'wait-spp 3\n' >late.txt
 refuse 'late.txt:1: rendering ends before' --script late.txt
 printf 'key Space\n' >paused.txt
 picture "1280 720" paused --ui --script paused.txt
+# What the scene gives cause to warn of is said as by every other verb.
+said=$("$meander" capture scene.toml --spp 1 --ui --set material.wax.mean_free_path=1e-7 -o out/warned.png 2>&1)
+[[ $(grep -c 'meander: warning: .*is finite but not accurate' <<<"$said") -eq 1 ]] || fail "--ui of too short a mean free path says: $said"
 refuse '--crop' --ui --crop 0,0,8,8
 refuse '--stats' --panel light --stats out/stats.json
 

@@ -79,14 +79,22 @@ TEST_CASE("a time budget is kept within half a sample's time") {
 }
 
 TEST_CASE("the last pass fills the time that is left with the nearest number of samples") {
-  // 10 samples took 1 s: 0.1 s each.
-  CHECK(next_pass({10, 1.0, 1}, seconds(1.31)) == 3);
-  CHECK(next_pass({10, 1.0, 1}, seconds(1.29)) == 3);
-  CHECK(next_pass({10, 1.0, 1}, seconds(1.06)) == 1);
-  CHECK(next_pass({10, 1.0, 1}, seconds(1.04)) == 0);
-  CHECK(next_pass({10, 1.0, 1}, seconds(1.0)) == 0);
-  CHECK(next_pass({10, 1.0, 1}, seconds(0.5)) == 0);
-  CHECK(next_pass({10, 1.0, 1}, seconds(kInfinity)) == 5);
+  // 1000 samples took 1 s: 1 ms each.
+  CHECK(next_pass({1000, 1.0, 1}, seconds(1.0311)) == 31);
+  CHECK(next_pass({1000, 1.0, 1}, seconds(1.0309)) == 31);
+  CHECK(next_pass({1000, 1.0, 1}, seconds(1.0006)) == 1);
+  CHECK(next_pass({1000, 1.0, 1}, seconds(1.0004)) == 0);
+  CHECK(next_pass({1000, 1.0, 1}, seconds(1.0)) == 0);
+  CHECK(next_pass({1000, 1.0, 1}, seconds(0.5)) == 0);
+}
+
+TEST_CASE("no pass takes more than a twentieth of the time given, but for short ones") {
+  CHECK(next_pass({1000, 1.0, 1}, seconds(kInfinity)) == 500);
+  CHECK(next_pass({1000, 1.0, 1}, seconds(100)) == 500);
+  CHECK(next_pass({1000, 1.0, 1}, seconds(4)) == 200);
+  CHECK(next_pass({500, 0.5, 1}, seconds(1)) == 50);
+  CHECK(next_pass({100, 0.1, 1}, seconds(0.2)) == 50);
+  CHECK(next_pass({10, 1.0, 1}, seconds(1.31)) == 1);
 }
 
 TEST_CASE("an image takes its first sample whatever the time, and a clock that stood still limits nothing") {
@@ -134,7 +142,7 @@ TEST_CASE("of several budgets the first that is met ends the image") {
   CHECK(next_pass(progress, Budget{1000, 100.0, 0.06}) == 0);
   CHECK(next_pass(progress, Budget{1000, 100.0, 0.001}) == 5);
   CHECK(next_pass(progress, Budget{19, 100.0, 0.001}) == 3);
-  CHECK(next_pass(progress, Budget{1000, 1.8, 0.001}) == 2);
+  CHECK(next_pass(progress, Budget{1000, 1.8, 0.001}) == 1);
   CHECK(next_pass(progress, Budget{1000, 100.0, 0.049}) == 1);
 }
 

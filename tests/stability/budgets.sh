@@ -49,8 +49,8 @@ scene 0.5 4096 >large.toml
 # value FILE.json KEY
 value() { python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))[sys.argv[2]])' "$1" "$2"; }
 
-# kept SCENE LIMIT ARGS…: the limit ends the run within 1 % or one pass, a pass being at most half a second or one sample a pixel,
-# and what is written is what a run of as many samples writes.
+# kept SCENE LIMIT ARGS…: the limit ends the run within 1 % or one pass, a pass being at most half a second (a twentieth of the
+# limit where nothing else runs) or one sample a pixel, and what is written is what a run of as many samples writes.
 kept() {
   local input=$1 limit=$2 spp status=0
   shift 2
@@ -85,7 +85,7 @@ too_short() {
 }
 
 for walk in batch scalar; do
-  kept dense.toml 1 --walk $walk --width 16 --height 16
+  kept dense.toml 3 --walk $walk --width 16 --height 16
   too_short denser.toml 0.3 1500 --walk $walk
   too_short trap.toml 0.3 1500 --walk $walk
   too_short room.toml 0.3 1500 --walk $walk
