@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
 
 #ifdef __SANITIZE_ADDRESS__
@@ -29,13 +30,14 @@ double resident_bytes() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-double growth(const std::vector<MemorySample>& samples, double MemorySample::*quantity) {
-  if (samples.size() < 2) return 0;
+Growth growth(const std::vector<MemorySample>& samples, double MemorySample::*quantity) {
+  const auto count = static_cast<double>(samples.size());
+  if (samples.size() < 3) return {};
   double mean_time = 0;
   double mean = 0;
   for (const MemorySample& sample : samples) {
-    mean_time += sample.seconds / static_cast<double>(samples.size());
-    mean += sample.*quantity / static_cast<double>(samples.size());
+    mean_time += sample.seconds / count;
+    mean += sample.*quantity / count;
   }
   double covariance = 0;
   double variance = 0;
@@ -43,7 +45,15 @@ double growth(const std::vector<MemorySample>& samples, double MemorySample::*qu
     covariance += (sample.seconds - mean_time) * (sample.*quantity - mean);
     variance += (sample.seconds - mean_time) * (sample.seconds - mean_time);
   }
-  return variance > 0 ? covariance / variance * (samples.back().seconds - samples.front().seconds) : 0;
+  if (!(variance > 0)) return {};
+  const double slope = covariance / variance;
+  double residual = 0;
+  for (const MemorySample& sample : samples) {
+    const double off = sample.*quantity - mean - slope * (sample.seconds - mean_time);
+    residual += off * off;
+  }
+  const double span = samples.back().seconds - samples.front().seconds;
+  return {slope * span, std::sqrt(residual / (count - 2) / variance) * span};
 }
 
 }  // namespace meander

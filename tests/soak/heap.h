@@ -17,7 +17,12 @@ struct MemorySample {
   double resident = 0;
 };
 
-/// What a straight line through the samples (least squares) gains from the first to the last, in bytes.
-[[nodiscard]] double growth(const std::vector<MemorySample>& samples, double MemorySample::*quantity);
+struct Growth {
+  double bytes = 0;
+  double error = 0;  // one standard error, if what scatters about the line does so independently
+};
+
+/// What a straight line through the samples (least squares) gains from the first to the last.
+[[nodiscard]] Growth growth(const std::vector<MemorySample>& samples, double MemorySample::*quantity);
 
 }  // namespace meander

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 #include "soak/heap.h"
@@ -34,6 +35,7 @@ struct SoakTally {
   int pictures = 0;
   int screens = 0;
   int told_apart = 0;
+  int grey = 0;
 };
 
 // One previewer for so long; the memory at its verifications.
@@ -56,6 +58,7 @@ std::vector<MemorySample> soak_for(double seconds, unsigned seed, SoakTally& tal
   tally.pictures += soak.pictures;
   tally.screens += soak.screens;
   tally.told_apart += soak.told_apart;
+  tally.grey += soak.grey();
   return samples;
 }
 
@@ -63,15 +66,17 @@ void judge(std::vector<MemorySample> samples) {
   const double begin = kWarmUp * samples.back().seconds;
   std::erase_if(samples, [&](const MemorySample& sample) { return sample.seconds < begin; });
   const double span = samples.back().seconds - samples.front().seconds;
-  const double heap = growth(samples, &MemorySample::heap) / kMebibyte;
-  const double resident = growth(samples, &MemorySample::resident) / kMebibyte;
+  const Growth heap = growth(samples, &MemorySample::heap);
+  const Growth resident = growth(samples, &MemorySample::resident);
   MESSAGE(samples.size() << " samples over " << span << " s: heap " << samples.front().heap / kMebibyte
-                         << " to " << samples.back().heap / kMebibyte << " MiB, by its line " << heap
-                         << "; resident " << samples.front().resident / kMebibyte << " to "
-                         << samples.back().resident / kMebibyte << " MiB, by its line " << resident);
+                         << " to " << samples.back().heap / kMebibyte << " MiB, by its line "
+                         << heap.bytes / kMebibyte << " +- " << heap.error / kMebibyte << "; resident "
+                         << samples.front().resident / kMebibyte << " to "
+                         << samples.back().resident / kMebibyte << " MiB, by its line "
+                         << resident.bytes / kMebibyte << " +- " << resident.error / kMebibyte);
   if (span < kSecondsThatTell) return;
-  CHECK(heap < kHeapPerHour * std::max(1.0, span / 3600));
-  CHECK(resident < kResidentPerHour * std::max(1.0, span / 3600));
+  CHECK(heap.bytes / kMebibyte < kHeapPerHour * std::max(1.0, span / 3600));
+  CHECK(resident.bytes / kMebibyte < kResidentPerHour * std::max(1.0, span / 3600));
 }
 
 }  // namespace
@@ -79,9 +84,11 @@ void judge(std::vector<MemorySample> samples) {
 TEST_CASE("the growth of samples is that of their line") {
   std::vector<MemorySample> samples;
   for (int i = 0; i <= 10; ++i) samples.push_back({10.0 * i, 500.0 + 3 * i + (i % 2 == 0 ? 1 : -1), 7});
-  CHECK(growth(samples, &MemorySample::heap) == doctest::Approx(30).epsilon(0.01));
-  CHECK(growth(samples, &MemorySample::resident) == doctest::Approx(0));
-  CHECK(growth({}, &MemorySample::heap) == 0);
+  const Growth heap = growth(samples, &MemorySample::heap);
+  CHECK(heap.bytes == doctest::Approx(30).epsilon(0.01));
+  CHECK(heap.error == doctest::Approx(std::sqrt(120.0 / 11 / 9 / 11000) * 100).epsilon(0.01));
+  CHECK(growth(samples, &MemorySample::resident).bytes == doctest::Approx(0));
+  CHECK(growth({}, &MemorySample::heap).bytes == 0);
 }
 
 TEST_CASE("the heap's bytes are seen") {
@@ -103,7 +110,8 @@ TEST_CASE("under random use no frame is stale, nothing fails, and memory stays a
   }
   MESSAGE(tally.steps << " steps, " << tally.reloads << " reloads, " << tally.pictures
                       << " pictures verified, " << tally.screens << " screens of which " << tally.told_apart
-                      << " could be told from the one before; longest wait " << tally.longest_wait
+                      << " could be told from the one before; " << tally.grey
+                      << " frames as grey as their surround; longest wait " << tally.longest_wait
                       << " frames; heap left " << left[0] << ", " << left[1] << ", " << left[2] << " MiB");
   CHECK(left[2] - left[1] < kLeftBehind);
   CHECK(tally.reloads > 0);

@@ -11,9 +11,9 @@
 
 namespace meander {
 
-/// Frames, 10 ms apart or more, within which a picture of what was asked last has to be there, or what changed
-/// on disk be noticed (the previewer looks every 0.4 s); ten times as many under the address sanitizer.
-/// Counted in frames, not seconds: the process may be stopped.
+/// Frames, 10 ms apart or more, within which a picture of what was asked last has to be there, or what
+/// changed on disk be noticed (the previewer looks every 0.4 s); ten times as many under the address
+/// sanitizer. Counted in frames, not seconds: the process may be stopped.
 #ifdef __SANITIZE_ADDRESS__
 inline constexpr int kMostFrames = 3000;
 #else
@@ -24,7 +24,8 @@ class Soak {
  public:
   Soak(const Folder& folder, unsigned seed) : folder_(folder), random_(seed + 77), storm_(folder, seed) {}
 
-  /// A step of the storm, or a file that changes, as the second does at any rate; then the picture of what is asked now has to come.
+  /// A step of the storm, or a file that changes, as the second does at any rate; then the picture of what is
+  /// asked now has to come.
   void step();
   /// Lets the picture become complete: it and what the screen shows must be what a new rendering and a new
   /// display make of the parameters, bit for bit and nearly so. Lets go of snapshots, which a user may pile
@@ -35,7 +36,8 @@ class Soak {
   int reloads = 0;       // files that changed and were read, or refused
   int pictures = 0;      // that were compared
   int screens = 0;       // likewise
-  int told_apart = 0;    // screens of which the comparison could tell those of the time before
+  [[nodiscard]] int grey() const { return storm_.grey; }
+  int told_apart = 0;  // screens of which the comparison could tell those of the time before
 
  private:
   [[nodiscard]] const PreviewState& state() const { return storm_.previewer().state(); }
