@@ -23,11 +23,11 @@ inline void enter_sphere(Walker& walker, Random& random) noexcept {
 }
 
 /// Entries are known some walks ahead, as camera rays are: asks for the memory of the one that walk `next` +
-/// 16 begins at, where it has any.
+/// 16 of the seed begins at, where it has any.
 template <class Start>
-void foresee(const Start& start, std::uint32_t next) noexcept {
+void foresee(const Start& start, std::uint64_t seed, std::uint32_t next) noexcept {
   if constexpr (requires(Random & random) { start.place(random); }) {
-    Random ahead = stream(0, 0, next + 16);
+    Random ahead = stream(seed, 0, next + 16);
     hwy::Prefetch(&start.place(ahead));
   }
 }

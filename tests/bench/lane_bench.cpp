@@ -17,6 +17,7 @@ namespace {
 template <class Start>
 struct Endless {
   const Start& launch;
+  std::uint64_t seed = 0;
   std::uint64_t walks = 0;
   std::uint64_t steps = 0;
   double sum = 0;
@@ -27,8 +28,8 @@ struct Endless {
   [[nodiscard]] bool start(int, Walker& walker, Random& random) noexcept {
     if (left == 0) return false;
     --left;
-    foresee(launch, next);
-    random = stream(0, 0, next++);
+    foresee(launch, seed, next);
+    random = stream(seed, 0, next++);
     walker = Walker{};
     launch(walker, random);
     return true;
@@ -49,7 +50,7 @@ template <class W, class Start>
 void run_lanes(benchmark::State& state, const W& world, const LaneModel& model, const Start& start) {
   const InstructionSet set = instruction_sets()[std::min<std::size_t>(
       static_cast<std::size_t>(state.range(1)), instruction_sets().size() - 1)];
-  Endless<Start> client{start};
+  Endless<Start> client{start, static_cast<std::uint64_t>(state.thread_index())};
   std::uint64_t rays = 0;
   for (auto _ : state) {
     client.left = 100000;
@@ -62,10 +63,14 @@ void run_lanes(benchmark::State& state, const W& world, const LaneModel& model, 
   using benchmark::Counter;
   state.counters["steps/s"] = Counter(static_cast<double>(client.steps), Counter::kIsRate);
   state.counters["walks/s"] = Counter(walks, Counter::kIsRate);
-  state.counters["steps/walk"] = static_cast<double>(client.steps) / walks;
-  state.counters["rays/walk"] = static_cast<double>(rays) / walks;
-  state.counters["escaped"] = mean;
-  state.counters["standard_error"] = std::sqrt((client.squares / walks - mean * mean) / walks);
+  state.counters["rays/s"] = Counter(static_cast<double>(rays), Counter::kIsRate);
+  const auto of_a_thread = [&](const char* name, double value) {
+    state.counters[name] = Counter(value, Counter::kAvgThreads);
+  };
+  of_a_thread("steps/walk", static_cast<double>(client.steps) / walks);
+  of_a_thread("rays/walk", static_cast<double>(rays) / walks);
+  of_a_thread("escaped", mean);
+  of_a_thread("standard_error", std::sqrt((client.squares / walks - mean * mean) / walks));
 }
 
 LaneModel model_of(benchmark::State& state, Real g) {
@@ -92,8 +97,8 @@ void lanes_mesh(benchmark::State& state, const Mesh& mesh, Real g) {
   model.region.kind = SafeRegion::Kind::balls;
   model.region.balls = &balls;
   run_lanes(state, body, model, MeshEntry{mesh, center});
-  state.counters["build_s"] = build;
-  state.counters["field_MB"] = static_cast<double>(balls.bytes()) / 1e6;
+  state.counters["build_s"] = {build, benchmark::Counter::kAvgThreads};
+  state.counters["field_MB"] = {static_cast<double>(balls.bytes()) / 1e6, benchmark::Counter::kAvgThreads};
 }
 
 void lanes_mesh_sphere(benchmark::State& state, Real g) { lanes_mesh(state, make_sphere_mesh(71), g); }
@@ -135,4 +140,28 @@ BENCHMARK_CAPTURE(lanes_torus_knot, isotropic, Real(0))
     ->Args({10, 3, 64})
     ->Args({100, 3, 128})
     ->Args({100, 3, 64})
-    ->Args({100, 3, 32});
+    ->Args({100, 3, 32})
+    ->Args({300, 3, 64})
+    ->Args({300, 3, 32})
+    ->Args({300, 3, 16})
+    ->Args({3000, 3, 64})
+    ->Args({3000, 3, 32})
+    ->Args({3000, 3, 16});
+
+// By the number of threads, each with a body of its own.
+BENCHMARK_CAPTURE(lanes_sphere, by_threads, Real(0))
+    ->ArgNames(kArgs)
+    ->Args({10, 3})
+    ->ThreadRange(1, 2)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(lanes_mesh_sphere, by_threads, Real(0))
+    ->ArgNames(kMeshArgs)
+    ->Args({10, 3, 64})
+    ->ThreadRange(1, 2)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(lanes_torus_knot, by_threads, Real(0))
+    ->ArgNames(kMeshArgs)
+    ->Args({10, 3, 64})
+    ->Args({100, 3, 64})
+    ->ThreadRange(1, 2)
+    ->UseRealTime();

@@ -31,7 +31,7 @@ void run_walks(benchmark::State& state, const W& world, Real g, const Start& sta
   double squares = 0;
   SilentEvents events;
   for (auto _ : state) {
-    foresee(start, walk);
+    foresee(start, 0, walk);
     Random random = stream(0, 0, walk++);
     Walker walker;
     start(walker, random);
