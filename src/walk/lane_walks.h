@@ -82,7 +82,8 @@ class LaneWalks {
 
   void put(int lane, const Walker& walker, const Random& random, LaneDue due) noexcept {
     if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::empty)) ++in_use_;
-    put_walker(lanes_, lane, walker, random, due, model_.medium.sigma_t);
+    put_walker(lanes_, lane, walker, random, model_.medium.sigma_t[walker.weight.hero]);
+    lanes_.due[lane] = static_cast<std::uint32_t>(due);
     fresh_[fresh_count_++] = static_cast<std::uint32_t>(lane);
     put_[lane] = {walker.weight.ratio, walker.weight.since, walker.weight.order, walker.weight.hero};
   }

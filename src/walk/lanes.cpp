@@ -13,8 +13,7 @@ Vec3 get(const Lanes::Row (&rows)[3], int lane) noexcept {
 
 }  // namespace
 
-void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, LaneDue due,
-                const Rgb& sigma_t) noexcept {
+void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, Real sigma) noexcept {
   put(lanes.position, lane, walker.position);
   put(lanes.direction, lane, walker.direction);
   put(lanes.throughput, lane, walker.weight.throughput);
@@ -24,13 +23,13 @@ void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& rand
   lanes.ball_radius2[lane] = -1;
   lanes.lift[lane] = 1;
   lanes.length[lane] = static_cast<float>(walker.weight.length);
-  lanes.sigma[lane] = static_cast<float>(sigma_t[walker.weight.hero]);
+  lanes.sigma[lane] = static_cast<float>(sigma);
   lanes.one_minus_mu[lane] = static_cast<float>(walker.last.one_minus_mu);
   lanes.one_plus_mu[lane] = static_cast<float>(walker.last.one_plus_mu);
   for (int i = 0; i < 4; ++i) lanes.random[i][lane] = random.state()[static_cast<std::size_t>(i)];
   lanes.order[lane] = walker.weight.order;
   lanes.steps[lane] = static_cast<std::uint32_t>(walker.steps);
-  lanes.due[lane] = static_cast<std::uint32_t>(due);
+  lanes.due[lane] = static_cast<std::uint32_t>(LaneDue::flight);
   lanes.state[lane] = static_cast<std::uint32_t>(LaneState::running);
 }
 

@@ -59,9 +59,9 @@ struct alignas(64) Lanes {
   std::uint32_t state[kLanes];
 };
 
-/// Puts a walk into a lane, which runs from then on, without a ball.
-void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, LaneDue due,
-                const Rgb& sigma_t) noexcept;
+/// Puts a walk into a lane, which runs from then on, due a flight, without a ball; `sigma` is the extinction
+/// of its hero channel.
+void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, Real sigma) noexcept;
 
 /// Lets a lane's walk collide at a point after a flight, from which on it runs, without a ball.
 void land(Lanes& lanes, int lane, const Vec3& point, Real distance) noexcept;

@@ -141,8 +141,7 @@ PlaceMoments fly_in_lanes(Real g) {
   Lanes lanes{};
   for (std::uint32_t i = 0; i < kWalks / kLanes; ++i) {
     for (int lane = 0; lane < kLanes; ++lane)
-      put_walker(lanes, lane, {}, stream(1, 1, i * kLanes + static_cast<std::uint32_t>(lane)),
-                 LaneDue::flight, Rgb(1));
+      put_walker(lanes, lane, {}, stream(1, 1, i * kLanes + static_cast<std::uint32_t>(lane)), 1);
     for (int n = 0; n < kPaths; ++n) {
       std::ranges::fill(lanes.state, static_cast<std::uint32_t>(LaneState::running));
       advance_lanes(instruction_sets().back(), model, lanes, kLanes, kLanes);

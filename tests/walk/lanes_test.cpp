@@ -209,7 +209,7 @@ TEST_CASE("directions stay unit vectors over a hundred thousand scatterings") {
     for (int i = 0; i < kLanes; ++i) {
       Walker walker;
       const Random random = stream(3, static_cast<std::uint32_t>(i), 0);
-      put_walker(lanes, i, walker, random, LaneDue::flight, Rgb(1e6f));
+      put_walker(lanes, i, walker, random, 1e6f);
     }
     LaneModel model{{Rgb(1e6f), Rgb(1), Real(0.95)}, sphere_region(1e6f), false};
     double worst = 0;
