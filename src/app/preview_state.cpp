@@ -22,6 +22,12 @@ bool is_there(const Scene& scene, const std::string& name) {
                      [&](const Material& material) { return material.name == name; });
 }
 
+void take(PreviewState& state, SceneFile file) {
+  state.scene = std::make_shared<const Scene>(std::move(file.scene));
+  state.warnings = std::move(file.warnings);
+  if (!is_there(*state.scene, state.material)) state.material = first_translucent(*state.scene);
+}
+
 }  // namespace
 
 bool shows_live(const PreviewLook& look, double across) {
@@ -49,16 +55,12 @@ void PreviewState::settle() {
 }
 
 void PreviewState::change(SceneDocument next) {
-  auto resolved = std::make_shared<const Scene>(next.scene().scene);
+  SceneFile file = next.scene();
   history.change(std::move(next));
-  scene = std::move(resolved);
-  if (!is_there(*scene, material)) material = first_translucent(*scene);
+  take(*this, std::move(file));
 }
 
-void PreviewState::resolve() {
-  scene = std::make_shared<const Scene>(history.now().scene().scene);
-  if (!is_there(*scene, material)) material = first_translucent(*scene);
-}
+void PreviewState::resolve() { take(*this, history.now().scene()); }
 
 FilmSize scaled_film(const FilmSize& film, int percent) {
   const auto scaled = [&](int side) { return std::max(1, (side * percent + 50) / 100); };

@@ -51,6 +51,7 @@ struct PreviewState {
   SceneDocument original;  // as it was opened, or last saved
   std::shared_ptr<const Scene> original_scene;
   std::shared_ptr<const Scene> scene;  // of history.now(), at 100 %
+  std::vector<std::string> warnings;   // of its reading
   PreviewSettings settings;
   PreviewLook look;
   std::string material;  // the selected one

@@ -16,12 +16,11 @@ constexpr double kWatchSeconds = 0.4;  // between two looks at the files
 
 // What the scene as it now is gives cause to warn of, each once for as long as it does.
 void Previewer::tell_warnings() {
-  const SceneFile& file = state_.history.now().scene();
-  std::vector<std::string> due = file.warnings;
+  std::vector<std::string> due = state_.warnings;
   const auto& frame = pictures_.newest();
   if (frame && frame->generation == generation_ && frame->overlaps) overlaps_ = *frame->overlaps;
   std::ranges::copy(overlaps_, std::back_inserter(due));
-  std::ranges::copy(scene_warnings(file.scene), std::back_inserter(due));
+  std::ranges::copy(scene_warnings(*state_.scene), std::back_inserter(due));
   std::erase_if(warnings_, [&](const auto& told) {
     const bool over = std::ranges::find(due, told.first) == due.end();
     if (over) state_.withdraw(told.second);

@@ -146,4 +146,15 @@ TEST_CASE("a scene that names a mesh which is not there yet is read when it is")
   CHECK_FALSE(previewer.tells("body.obj"));
 }
 
+TEST_CASE("a mesh that breaks before its picture is there is an error that is told, and ends nothing") {
+  const Folder folder;
+  write_settled(folder, "scene.toml", with_mesh(40));
+  write_settled(folder, "body.obj", kTetrahedron);
+  Watched previewer(SceneDocument::open(folder.at("scene.toml")));
+  folder.write("body.obj", "v 0 0 0\n");
+  CHECK_NOTHROW(previewer.pass(1));
+  CHECK(previewer.tells("body.obj"));
+  CHECK(previewer->first_image_seconds().has_value());
+}
+
 }  // namespace meander
