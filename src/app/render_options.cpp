@@ -208,7 +208,10 @@ FinishedRun run_render(const RenderOptions& options, std::span<const std::string
 void print_summary(const RenderOptions& options, const FinishedRun& run) {
   const Rendering& r = run.rendering;
   if (!options.stats.empty()) {
-    const std::string json = stats_json(run.job, r, ending_name(ended_by(progress_of(r), run.budget)));
+    Ending ending = ended_by(progress_of(r), run.budget);
+    const bool broken_off = ending == Ending::none && run.budget.seconds && !run.interrupted;
+    if (broken_off) ending = Ending::seconds;  // by the limit, in the middle of a pass
+    const std::string json = stats_json(run.job, r, ending_name(ending));
     write_file(options.stats, std::as_bytes(std::span(json)));
   }
   if (run.interrupted)

@@ -273,6 +273,11 @@ Real Geometry::offset(std::size_t object, const Vec3& point) const noexcept {
   return std::max(largest(glm::abs(point)), body.size) * Real(0x1p-22);
 }
 
+Real Geometry::depth_beyond_looks(std::size_t object) const noexcept {
+  const auto* mesh = std::get_if<SharedMesh>(&bodies_[object].shape);
+  return mesh ? Real(1.01) * (*mesh)->body.looks_behind() : Real(0);
+}
+
 // f(shape, approach, placement) for one body.
 template <class F>
 auto Geometry::approach(std::size_t object, const Ray& ray, const F& f) const noexcept {

@@ -45,6 +45,10 @@ class Geometry {
   /// The distance that outweighs the rounding of a point of the object, given in its own coordinates.
   [[nodiscard]] Real offset(std::size_t object, const Vec3& point) const noexcept;
 
+  /// How deep below an object's surface a step no longer finds, behind it, a wall at the same place: beyond
+  /// what a mesh looks back for a wall that rounding has carried a point across. 0 where nothing does.
+  [[nodiscard]] Real depth_beyond_looks(std::size_t object) const noexcept;
+
   /// Whether the object is matched and a light with an extent may lie inside.
   [[nodiscard]] bool holds_light(std::size_t object) const noexcept { return bodies_[object].holds_light; }
 

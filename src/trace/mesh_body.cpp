@@ -119,6 +119,8 @@ MeshBody::MeshBody(RTCDevice device, const Mesh& mesh, const DMat3& map, DVec3& 
   check_device(device, "building a mesh's hierarchy");
 }
 
+Real MeshBody::looks_behind() const noexcept { return kMargin * scale_; }
+
 MeshBody::Met MeshBody::met_by(const RTCRayHit& query) const noexcept {
   const Triangle& t = triangles_[query.hit.primID];
   const Real u = query.hit.u;

@@ -55,6 +55,9 @@ class MeshBody {
   /// The same, always by Embree's tree: the oracle of the grid.
   [[nodiscard]] Crossing first_crossing_in_tree(const Vec3& p, const Vec3& d, Real distance) const noexcept;
 
+  /// How far behind a step's beginning an exit still counts as one that rounding has carried it across.
+  [[nodiscard]] Real looks_behind() const noexcept;
+
   /// A step whose shading normal is still to be looked up, in memory that has been asked for.
   struct Begun {
     static constexpr std::uint32_t kNoTriangle = 0xffffffff;

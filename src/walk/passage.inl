@@ -66,6 +66,7 @@ struct PathTracer<G>::Passage {
   [[nodiscard]] Step begin() noexcept {
     walker = {};
     path.counted_steps = 0;
+    path.bounces_on_spot = 0;
     walker.weight = state.weight;
     walker.direction = state.ray.direction;
     if (!enter()) return Step::go_on;
@@ -133,6 +134,19 @@ struct PathTracer<G>::Passage {
     const bool flat = glm::dot(walker.direction, normal) > -kFlat;
     const bool exact = !tracer.geometry_.traces_rays(hit.object);
     walker.position = exact || !flat ? point : point - tracer.geometry_.offset(hit.object, point) * normal;
+  }
+
+  // Where two walls of a mesh lie at one place, a walk that is mirrored off one of them finds the other
+  // behind it, and is mirrored to and fro without ever getting anywhere. It is then moved in, beyond what is
+  // looked for behind it.
+  void leave_spot(const Crossing& crossing) noexcept {
+    constexpr int kMostOnSpot = 16;
+    if (!tracer.geometry_.traces_rays(hit.object)) return;
+    const Real here = tracer.geometry_.offset(hit.object, crossing.point);
+    path.bounces_on_spot = crossing.distance > here ? 0 : path.bounces_on_spot + 1;
+    if (path.bounces_on_spot < kMostOnSpot) return;
+    path.bounces_on_spot = 0;
+    walker.position = crossing.point - tracer.geometry_.depth_beyond_looks(hit.object) * crossing.normal;
   }
 
   // Lights that the segment ahead passes inside the body. Those do not end a path, not even before the
@@ -237,6 +251,7 @@ struct PathTracer<G>::Passage {
     if (random.next() < ray.reflectance) {
       walker.direction = lift_off(ray.reflected, -crossing.normal);
       place_inside(crossing.point, crossing.normal);
+      leave_spot(crossing);
       return Step::walk;
     }
     state.weight = walker.weight;

@@ -34,6 +34,7 @@ concept SceneGeometry = requires(const G& geometry, const Ray& ray, std::size_t 
   { geometry.traces_rays(object) } -> std::same_as<bool>;
   { geometry.holds_light(object) } -> std::same_as<bool>;
   { geometry.clearance(object, point) } -> std::convertible_to<Real>;
+  { geometry.depth_beyond_looks(object) } -> std::convertible_to<Real>;
 };
 
 /// What happened on the way, for statistics.
@@ -78,6 +79,7 @@ struct Path {
   Walker walker;
   ShadowRoulette shadows;
   std::uint64_t counted_steps = 0;  // of the walker's
+  int bounces_on_spot = 0;          // the last ones off the inside, since the walk last got anywhere
   std::uint64_t walks = 0;          // that have ended; a path of many short ones asks for the stop among them
 };
 

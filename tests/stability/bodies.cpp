@@ -72,6 +72,18 @@ Mesh make_star(int points) {
   return mesh;
 }
 
+Mesh make_touching_cubes() {
+  Mesh mesh;
+  for (const double x : {-0.5, 0.5}) {
+    const Mesh cube = make_cube();
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const DVec3& p : cube.positions) mesh.positions.push_back(0.5 * p + DVec3(x, 0, 0));
+    for (const Triangle& t : cube.triangles)
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return mesh;
+}
+
 Mesh make_hollow_cube(double thickness) {
   Mesh mesh = make_cube();
   const Mesh hole = make_cube();

@@ -173,6 +173,8 @@ void add_furnace_cases(std::vector<Case>& rows) {
   star.camera.look_from = {3.5, 2.8, 9};
   rows.push_back({"hard meshes", "star of 200 points, white and matched", "furnace", star, 800, Furnace{}});
   rows.back().long_spp = 2;
+  rows.push_back({"hard meshes", "two blocks face to face in one mesh, white and dielectric", "furnace",
+                  turned(shape_of(make_touching_cubes()), whites[2]), 8, Furnace{}});
 }
 
 }  // namespace
