@@ -110,12 +110,29 @@ class Preview:
     def shot(self):
         return self.screen.shot(*self.place())
 
+    def at_work(self):
+        """Whether any thread but the one that draws runs, or would if it had a processor."""
+        folder = f"/proc/{self.process.pid}/task"
+        for task in set(os.listdir(folder)) - {str(self.process.pid)}:
+            try:
+                with open(f"{folder}/{task}/stat") as stat:
+                    if stat.read().rpartition(")")[2].split()[0] == "R":
+                        return True
+            except OSError:  # it has ended
+                pass
+        return False
+
     def settled(self, box):
-        """The shot after which the box does not change any more."""
+        """The shot after which the box does not change any more: nothing is traced, and on a machine that is busy with other
+        things the picture has had the time to be drawn."""
         shots = [self.shot()]
 
         def still():
-            time.sleep(0.3)
+            for _ in range(30):
+                time.sleep(0.01)
+                if self.at_work():
+                    del shots[:]
+                    return False
             shots.append(self.shot())
             return len(shots) > 3 and all(shots[-1].far_from(s, box) == 0 for s in shots[-3:])
 
