@@ -10,6 +10,18 @@
 #include "app/preview_desk.h"
 
 namespace meander {
+namespace {
+
+// A picture of one sample a pixel of all that was asked, within a minute.
+void await_sample(Previewer& previewer) {
+  for (const Timer timer; timer.seconds() < 60 && previewer.spp() < 1;) {
+    (void)previewer.update(timer.seconds());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  REQUIRE(previewer.spp() == 1);
+}
+
+}  // namespace
 
 TEST_CASE("an edit before the first frame is in the first picture") {
   const Offscreen context(1, 1);
@@ -18,11 +30,7 @@ TEST_CASE("an edit before the first frame is in the first picture") {
   options.settings.budget.spp = 1;
   Previewer previewer(context.functions(), Desk::small(kKnot), options, 1);
   previewer.apply("light.key.radiance=0.5");
-  for (const Timer timer; timer.seconds() < 60 && previewer.spp() < 1;) {
-    (void)previewer.update(timer.seconds());
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  REQUIRE(previewer.spp() == 1);
+  await_sample(previewer);
   const Scene& shown = *previewer.pictures().newest()->scene;
   REQUIRE(shown.lights.size() == 2);
   CHECK(std::get<RectangleLight>(shown.lights[1].shape).radiance == Rgb(0.5f));
@@ -61,11 +69,7 @@ TEST_CASE("bodies that overlap are warned of with the first full picture, until 
   options.settings.budget.spp = 1;
   Previewer previewer(context.functions(), document, options, 1);
   const auto warnings_of_picture = [&] {
-    for (const Timer timer; timer.seconds() < 60 && previewer.spp() < 1;) {
-      (void)previewer.update(timer.seconds());
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    REQUIRE(previewer.spp() == 1);
+    await_sample(previewer);
     return previewer.warnings();
   };
   CHECK(previewer.warnings().empty());
@@ -83,11 +87,7 @@ TEST_CASE("the slider of the threads at its lower end means all of them") {
   options.settings.budget.spp = 1;
   Previewer previewer(context.functions(), Desk::small(kKnot), options, 1);
   previewer.carry_out({CommandKind::threads, 0, 0, {}, {}});
-  for (const Timer timer; timer.seconds() < 60 && previewer.spp() < 1;) {
-    (void)previewer.update(timer.seconds());
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  CHECK(previewer.spp() == 1);
+  await_sample(previewer);
 }
 
 TEST_CASE("a press is the picture's or the interface's by where it was made, however slow the frames are") {
