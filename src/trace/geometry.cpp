@@ -11,7 +11,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Placement {
   const DVec3& center;
   Real size;
-  bool closed;  // its surface bounds an inside
+  bool closed;   // its surface bounds an inside
+  bool matched;  // which light enters as if there were no surface
 };
 
 struct BodyHit {
@@ -23,11 +24,13 @@ struct BodyHit {
 
 // A ray as one body sees it. `slack` is how far behind the ray's origin it starts: a surface that faces the
 // ray there touches the one that the ray has just left, and counts as met at once; one that faces away lies
-// behind.
+// behind. `lifted` is how far the origin was moved off the surface of this body, outward, when the ray left
+// it by there.
 struct Approach {
   DVec3 origin;  // in the body's coordinates
   Vec3 direction;
   double slack;
+  Vec3 lifted{0};
 };
 
 template <class Unit>
@@ -70,10 +73,23 @@ Vec3 local_origin(const Approach& ray, double entry) noexcept {
   return Vec3(ray.origin + entry * DVec3(ray.direction));
 }
 
-// Whether a point lies inside a closed mesh, seen along a line: the surface behind it is left going backward.
+// Whether a point lies inside a closed mesh. Where counting the walls leaves doubt: whether the surface
+// behind it, seen along a line, is left going backward.
 bool is_inside(const MeshBody& mesh, const Vec3& p, const Vec3& d) noexcept {
+  if (const auto depth = mesh.depth(p, d)) return *depth > 0;
   const auto behind = mesh.closest(p, -d, std::numeric_limits<Real>::infinity());
   return behind && glm::dot(behind->normal, d) < 0;
+}
+
+// A ray that has left a mesh and is inside of it all the same has crossed two walls at one place: the second
+// one, which it enters by. One that was lifted off the first lies above both.
+std::optional<BodyHit> hit_at_once(const MeshBody& mesh, const Approach& ray, const Vec3& origin) noexcept {
+  const Real height = glm::length(ray.lifted);
+  const Real rise = glm::dot(ray.lifted, ray.direction);
+  if (!(rise > 0)) return std::nullopt;
+  const auto entry = mesh.entry_behind(origin, ray.direction, 2 * height * height / rise);
+  if (!entry) return std::nullopt;
+  return BodyHit{0, entry->point, entry->normal, entry->shading_normal};
 }
 
 // On the rim of a mesh a ray may slip past the last triangle that faces it and meet the next one from behind.
@@ -93,8 +109,11 @@ std::optional<BodyHit> first_hit(const MeshBody& mesh, const Approach& ray, cons
     const double met = *entry + double{start};
     const bool leaves = glm::dot(hit->normal, ray.direction) >= 0;
     const bool behind = leaves && ray.slack > 0 && met <= 2 * ray.slack;
-    const bool grazes = leaves && placement.closed && (*entry > 0 || !is_inside(mesh, origin, ray.direction));
-    if (!behind && !grazes)
+    const bool asks = leaves && placement.closed && !behind;
+    const bool inside = asks && *entry == 0 && is_inside(mesh, origin, ray.direction);
+    if (inside && !placement.matched)
+      if (const auto at_once = hit_at_once(mesh, ray, origin)) return at_once;
+    if (!behind && (!asks || inside))
       return BodyHit{std::max(met - ray.slack, 0.0), hit->point, hit->normal, hit->shading_normal};
     start += step;
   }
@@ -123,7 +142,7 @@ double sum_lengths_inside(const MeshBody& mesh, const Approach& ray, const Place
     // is too far.
     const double step = double{placement.size} * 0x1p-20;
     done += hit->distance + step;
-    rest = {DVec3(hit->point) + step * DVec3(ray.direction), ray.direction, 0};
+    rest = {DVec3(hit->point) + step * DVec3(ray.direction), ray.direction, 0, Vec3(0)};
   }
   return inside;
 }
@@ -278,14 +297,20 @@ Real Geometry::depth_beyond_looks(std::size_t object) const noexcept {
   return mesh ? Real(1.01) * (*mesh)->body.looks_behind() : Real(0);
 }
 
+bool Geometry::holds(std::size_t object, const Vec3& point, const Vec3& direction) const noexcept {
+  const auto* mesh = std::get_if<SharedMesh>(&bodies_[object].shape);
+  return mesh && (*mesh)->body.depth(point, direction).value_or(0) > 0;
+}
+
 // f(shape, approach, placement) for one body.
 template <class F>
 auto Geometry::approach(std::size_t object, const Ray& ray, const F& f) const noexcept {
   const Body& body = bodies_[object];
-  const Placement placement{body.center, body.size, body.closed};
-  Approach seen{ray.origin - body.center, ray.direction, 0};
+  const Placement placement{body.center, body.size, body.closed, body.matched};
+  Approach seen{ray.origin - body.center, ray.direction, 0, Vec3(0)};
   if (ray.departure.object == object) {
-    seen.origin += DVec3(ray.departure.offset);
+    seen.lifted = ray.departure.offset;
+    seen.origin += DVec3(seen.lifted);
   } else if (ray.departure.object != Departure::kNowhere) {
     const double rounding = offset(object, Vec3(seen.origin));
     seen.slack = 2 * (double{glm::length(ray.departure.offset)} + rounding);

@@ -49,6 +49,10 @@ class Geometry {
   /// what a mesh looks back for a wall that rounding has carried a point across. 0 where nothing does.
   [[nodiscard]] Real depth_beyond_looks(std::size_t object) const noexcept;
 
+  /// Whether a point, in the object's own coordinates, is known to lie inside a mesh; found out along a
+  /// direction. False where that leaves doubt, and of what is no mesh.
+  [[nodiscard]] bool holds(std::size_t object, const Vec3& point, const Vec3& direction) const noexcept;
+
   /// Whether the object is matched and a light with an extent may lie inside.
   [[nodiscard]] bool holds_light(std::size_t object) const noexcept { return bodies_[object].holds_light; }
 

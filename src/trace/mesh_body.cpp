@@ -140,8 +140,18 @@ Vec3 MeshBody::shading_normal(std::uint32_t triangle, Real u, Real v, const Vec3
 }
 
 std::optional<MeshHit> MeshBody::closest(const Vec3& o, const Vec3& d, Real distance) const noexcept {
+  return hit_by(o, d, distance, nullptr);
+}
+
+// Who goes backward leaves by it.
+std::optional<MeshHit> MeshBody::entry_behind(const Vec3& p, const Vec3& d, Real distance) const noexcept {
+  return hit_by(p, -d, distance, accept_exits);
+}
+
+std::optional<MeshHit> MeshBody::hit_by(const Vec3& o, const Vec3& d, Real distance,
+                                        RTCFilterFunctionN filter) const noexcept {
   RTCRayHit query = make_query(o * inverse_scale_, d, distance * inverse_scale_);
-  intersect(scene_.get(), query, nullptr);
+  intersect(scene_.get(), query, filter);
   if (!is_hit(query)) return std::nullopt;
   const Met met = met_by(query);
   const Vec3 normal = glm::normalize(met.normal);
@@ -220,7 +230,8 @@ Crossing MeshBody::first_crossing_in_tree(const Vec3& p, const Vec3& d, Real dis
 // Whether rounding has carried a point out of the body: whether the nearest surface behind it, seen along its
 // direction, was an exit, and it is not in front of an entry that is nearer. A walk that has just entered
 // from a narrow gap may lie in that gap by a rounding; taken for one that has left by the wall behind, it
-// would enter at the same point again, and never end.
+// would enter at the same point again, and never end. Nor has it left where another wall at the same place
+// has taken it in again.
 bool MeshBody::is_outside(const Vec3& p, const Vec3& d) const noexcept {
   struct Wall {
     Real height = std::numeric_limits<Real>::infinity();  // of the point over its plane, on either side
@@ -236,7 +247,7 @@ bool MeshBody::is_outside(const Vec3& p, const Vec3& d) const noexcept {
   const Wall behind = nearest_wall(-d);
   if (!behind.leaves) return false;
   const Wall ahead = nearest_wall(d);
-  return ahead.leaves || behind.height <= ahead.height;
+  return (ahead.leaves || behind.height <= ahead.height) && depth(p * scale_, d).value_or(0) <= 0;
 }
 
 // A step that meets no exit: inside, unless it ends beyond the bounds. Then it has leaked, and `distance` is

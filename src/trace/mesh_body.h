@@ -86,6 +86,15 @@ class MeshBody {
   [[nodiscard]] std::optional<double> length_inside(const Vec3& o, const Vec3& d, double distance,
                                                     bool outside) const noexcept;
 
+  /// How many times the surface wraps a point, 0 outside, which must be closed: counted along the line
+  /// through it, to both ends. Where two walls lie at one place, both count, whichever is met first. Nothing
+  /// where the two ends differ or are in doubt, as above.
+  [[nodiscard]] std::optional<int> depth(const Vec3& p, const Vec3& d) const noexcept;
+
+  /// The last wall within `distance` behind a point that one who comes along `d` enters by.
+  [[nodiscard]] std::optional<MeshHit> entry_behind(const Vec3& p, const Vec3& d,
+                                                    Real distance) const noexcept;
+
   /// A radius of a ball about `p`, at most `radius`, for which no step to a point of it from a point inside
   /// of the body within `spread` of `from` leaves the body; 0 or less where there is none. The ball of
   /// `radius` must hold no part of the surface.
@@ -111,6 +120,8 @@ class MeshBody {
     Real v;
   };
   [[nodiscard]] Met met_by(const RTCRayHit& query) const noexcept;
+  [[nodiscard]] std::optional<MeshHit> hit_by(const Vec3& o, const Vec3& d, Real distance,
+                                              RTCFilterFunctionN filter) const noexcept;
 
   // In units of scale_.
   [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Real u, Real v,

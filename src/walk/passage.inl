@@ -66,7 +66,7 @@ struct PathTracer<G>::Passage {
   [[nodiscard]] Step begin() noexcept {
     walker = {};
     path.counted_steps = 0;
-    path.bounces_on_spot = 0;
+    path.set_out_normal = Vec3(0);
     walker.weight = state.weight;
     walker.direction = state.ray.direction;
     if (!enter()) return Step::go_on;
@@ -79,6 +79,7 @@ struct PathTracer<G>::Passage {
   [[nodiscard]] Step end(const WalkResult& walked) noexcept {
     if (walked.end == WalkEnd::absorbed) return Step::done;
     if (walked.end == WalkEnd::leaked) return leak();
+    if (stays_on_spot(walked.crossing)) return Step::walk;
     return leave(walked.crossing);
   }
 
@@ -134,19 +135,38 @@ struct PathTracer<G>::Passage {
     const bool flat = glm::dot(walker.direction, normal) > -kFlat;
     const bool exact = !tracer.geometry_.traces_rays(hit.object);
     walker.position = exact || !flat ? point : point - tracer.geometry_.offset(hit.object, point) * normal;
+    path.set_out = point;
+    path.set_out_normal = normal;
   }
 
-  // Where two walls of a mesh lie at one place, a walk that is mirrored off one of them finds the other
-  // behind it, and is mirrored to and fro without ever getting anywhere. It is then moved in, beyond what is
-  // looked for behind it.
-  void leave_spot(const Crossing& crossing) noexcept {
-    constexpr int kMostOnSpot = 16;
-    if (!tracer.geometry_.traces_rays(hit.object)) return;
+  // Whether a crossing is none of this walk's, which is moved in then. Two walls of a mesh may lie at one
+  // place, back to back: a walk that sets out from one of them finds the other at once, which is its
+  // neighbour's. And whatever else would keep a path at one place for good ends after some crossings: it is
+  // moved beyond what is looked for behind it.
+  [[nodiscard]] bool stays_on_spot(const Crossing& crossing) noexcept {
+    constexpr int kMostStays = 16;
+    if (!tracer.geometry_.traces_rays(hit.object)) return false;
     const Real here = tracer.geometry_.offset(hit.object, crossing.point);
-    path.bounces_on_spot = crossing.distance > here ? 0 : path.bounces_on_spot + 1;
-    if (path.bounces_on_spot < kMostOnSpot) return;
-    path.bounces_on_spot = 0;
-    walker.position = crossing.point - tracer.geometry_.depth_beyond_looks(hit.object) * crossing.normal;
+    if (crossing.distance > here) {
+      path.stays = 0;
+      return false;
+    }
+    const bool stuck = ++path.stays >= kMostStays;
+    if (!stuck && !meets_neighbour(crossing, here)) return false;
+    walker.position =
+        stuck ? crossing.point + tracer.geometry_.depth_beyond_looks(hit.object) * walker.direction
+              : path.set_out - here * path.set_out_normal;
+    path.set_out_normal = Vec3(0);
+    if (stuck) path.stays = 0;
+    return true;
+  }
+
+  // Back to back with the wall that the walk set out from; at the edge of a wedge it is on the other side of
+  // both, a little farther in, that tells.
+  [[nodiscard]] bool meets_neighbour(const Crossing& crossing, Real here) const noexcept {
+    return glm::dot(crossing.normal, path.set_out_normal) < Real(-0.5) &&
+           glm::length(crossing.point - path.set_out) <= 2 * here &&
+           tracer.geometry_.holds(hit.object, path.set_out - here * path.set_out_normal, walker.direction);
   }
 
   // Lights that the segment ahead passes inside the body. Those do not end a path, not even before the
@@ -251,7 +271,6 @@ struct PathTracer<G>::Passage {
     if (random.next() < ray.reflectance) {
       walker.direction = lift_off(ray.reflected, -crossing.normal);
       place_inside(crossing.point, crossing.normal);
-      leave_spot(crossing);
       return Step::walk;
     }
     state.weight = walker.weight;

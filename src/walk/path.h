@@ -23,7 +23,9 @@ namespace meander {
 /// that outweighs the rounding of a point of it. with_body: calls f with the object's World, returns what f
 /// returns. transmittance: along a segment through every matched body on it, 0 where anything else stands in
 /// the way. traces_rays: whether a step in the object costs a ray. clearance: a lower bound of the distance
-/// from a point in the object to its surface.
+/// from a point in the object to its surface. depth_beyond_looks: how deep a walk must begin to find nothing
+/// behind it. holds: whether a point is known to lie inside the object, of an object whose steps cost rays;
+/// found out along a direction.
 template <class G>
 concept SceneGeometry = requires(const G& geometry, const Ray& ray, std::size_t object, const Vec3& point,
                                  double distance) {
@@ -35,6 +37,7 @@ concept SceneGeometry = requires(const G& geometry, const Ray& ray, std::size_t 
   { geometry.holds_light(object) } -> std::same_as<bool>;
   { geometry.clearance(object, point) } -> std::convertible_to<Real>;
   { geometry.depth_beyond_looks(object) } -> std::convertible_to<Real>;
+  { geometry.holds(object, point, ray.direction) } -> std::same_as<bool>;
 };
 
 /// What happened on the way, for statistics.
@@ -79,7 +82,9 @@ struct Path {
   Walker walker;
   ShadowRoulette shadows;
   std::uint64_t counted_steps = 0;  // of the walker's
-  int bounces_on_spot = 0;          // the last ones off the inside, since the walk last got anywhere
+  Vec3 set_out{0};                  // where on the surface the walk began, or was last mirrored
+  Vec3 set_out_normal{0};           // outward, there; 0 once another wall was found at the same place
+  int stays = 0;                    // crossings on one spot, since the path last got anywhere
   std::uint64_t walks = 0;          // that have ended; a path of many short ones asks for the stop among them
 };
 

@@ -72,15 +72,20 @@ Mesh make_star(int points) {
   return mesh;
 }
 
-Mesh make_touching_cubes() {
-  Mesh mesh;
-  for (const double x : {-0.5, 0.5}) {
-    const Mesh cube = make_cube();
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const DVec3& p : cube.positions) mesh.positions.push_back(0.5 * p + DVec3(x, 0, 0));
-    for (const Triangle& t : cube.triangles)
-      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
+std::pair<Mesh, Mesh> make_touching_cubes() {
+  const auto half = [](Mesh cube, double x) {
+    for (DVec3& p : cube.positions) p = 0.5 * p + DVec3(x, 0, 0);
+    return cube;
+  };
+  return {half(make_cube(), -0.5), half(make_cube(3, 5), 0.5)};
+}
+
+Mesh joined(const std::pair<Mesh, Mesh>& meshes) {
+  Mesh mesh = meshes.first;
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), meshes.second.positions.begin(), meshes.second.positions.end());
+  for (const Triangle& t : meshes.second.triangles)
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   return mesh;
 }
 

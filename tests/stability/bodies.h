@@ -1,6 +1,7 @@
 // Closed meshes that are hard on a tracer, each of a body that is simple otherwise.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "scene/mesh.h"
@@ -23,8 +24,13 @@ namespace meander {
 /// A star of `points` about z, radii 0.8 and 0.3 in turn, its rim up and down by 0.1, joined to (0, 0, +-1):
 /// towards these its grooves are narrower than any rounding.
 [[nodiscard]] Mesh make_star(int points);
-/// Two cubes of half size 0.5, side by side: they share the plane x = 0, each with a face of its own.
-[[nodiscard]] Mesh make_touching_cubes();
+
+/// Two cubes of half size 0.5, on either side of the plane x = 0, in which each has a face of its own, cut up
+/// otherwise than the other's.
+[[nodiscard]] std::pair<Mesh, Mesh> make_touching_cubes();
+
+/// Both in one mesh.
+[[nodiscard]] Mesh joined(const std::pair<Mesh, Mesh>& meshes);
 
 /// The cube [-1, 1]^3 without the cube [-1 + thickness, 1 - thickness]^3.
 [[nodiscard]] Mesh make_hollow_cube(double thickness);

@@ -111,9 +111,10 @@ void add_mesh_cases(std::vector<Case>& rows) {
   add("cube of triangles 1000 times as long as wide", make_cube(1, 2000), Fault::triangle);
   add("cube of coplanar triangles", make_cube(16, 16), Fault::triangle);
   add("cube, its triangles twice", doubled(make_cube(4, 4)), Fault::albedo);
-  // A leaf is an exit and an entry at one place, of which a walk sees the one or the other.
-  rows.push_back({group, "cube that holds a leaf of no volume, stated", "finite",
-                  turned(shape_of(with_leaf(make_cube(4, 4))), kMatched), 50, Stated{}, Fault::triangle});
+  // A leaf is an exit and an entry at one place: what leaves by the one goes on inside.
+  rows.push_back({group, "cube that holds a leaf of no volume", "the same without the leaf",
+                  turned(shape_of(with_leaf(make_cube(4, 4))), kMatched), 400,
+                  Same{turned(shape_of(make_cube(4, 4)), kMatched)}, Fault::triangle});
   add("cube of two fans of 1000 triangles", make_cube(250), Fault::triangle);
   const Mesh pyramid = make_pyramid(1000);
   Scene above = white_surround(shape_of(pyramid), kMatched, 2.2);
@@ -174,7 +175,25 @@ void add_furnace_cases(std::vector<Case>& rows) {
   rows.push_back({"hard meshes", "star of 200 points, white and matched", "furnace", star, 800, Furnace{}});
   rows.back().long_spp = 2;
   rows.push_back({"hard meshes", "two blocks face to face in one mesh, white and dielectric", "furnace",
-                  turned(shape_of(make_touching_cubes()), whites[2]), 8, Furnace{}});
+                  turned(shape_of(joined(make_touching_cubes())), whites[2]), 8, Furnace{}});
+}
+
+// What leaves one of them at their common face enters the other.
+void add_touching_cases(std::vector<Case>& rows) {
+  const auto [left, right] = make_touching_cubes();
+  const std::pair<std::string, TranslucentMaterial> materials[]{
+      {"matched", {grey(0.3, 0.8), Boundary::matched, 1, 0}},
+      {"diffuse", {grey(0.3, 0.8), Boundary::diffuse, 1, 0}},
+      {"diffuse of index 1.5", {grey(0.3, 0.8), Boundary::diffuse, 1.5, 0}},
+      {"smooth dielectric", {grey(0.3, 0.8), Boundary::dielectric, 1.5, 0}},
+      {"rough dielectric", {grey(0.3, 0.8), Boundary::dielectric, 1.5, 0.4}}};
+  for (const auto& [name, material] : materials) {
+    Scene two = turned(shape_of(left), material);
+    two.objects.push_back(two.objects[0]);
+    two.objects[1].shape = shape_of(right);
+    rows.push_back({"hard meshes", "two blocks face to face in one mesh, " + name, "the same as two objects",
+                    turned(shape_of(joined({left, right})), material), 2000, Same{std::move(two)}});
+  }
 }
 
 }  // namespace
@@ -185,6 +204,7 @@ void add_shape_cases(std::vector<Case>& rows) {
   add_needle_cases(rows);
   add_mesh_cases(rows);
   add_furnace_cases(rows);
+  add_touching_cases(rows);
 }
 
 }  // namespace meander

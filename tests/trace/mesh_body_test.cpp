@@ -190,3 +190,54 @@ TEST_CASE("a ray aimed at an edge or a corner, or past a hole, has the right len
   const MeshBody body(device.get(), open, DMat3(1), center);
   CHECK_FALSE(body.length_inside({Real(0.1), Real(0.3), -3}, {0, 0, 1}, kFar, true));
 }
+
+TEST_CASE("a point's depth is how many boxes hold it, whether they touch, overlap or nest") {
+  const std::pair<DVec3, DVec3> boxes[]{
+      {{-1, -1, -1}, {0, 1, 1}}, {{0, -1, -1}, {1, 1, 1}}, {{0.25, -0.5, -0.5}, {1.5, 0.5, 0.5}}};
+  Mesh mesh;
+  for (const auto& [low, high] : boxes) append(mesh, make_box(low, high));
+  const Device device = make_device(1);
+  DVec3 center;
+  const MeshBody body(device.get(), mesh, DMat3(1), center);
+  int doubtful = 0;
+  for (std::uint32_t i = 0; i < 50000; ++i) {
+    Random random = stream(8, 0, i);
+    const Real a = random.next();
+    const Real b = random.next();
+    const Real c = random.next();
+    // A third of them within rounding of the touching faces, on either side.
+    const Real x = i % 3 == 0 ? (2 * a - 1) * Real(1e-5) : 4 * a - 2;
+    const DVec3 p(x, 3 * b - Real(1.5), 3 * c - Real(1.5));
+    int expected = 0;
+    bool beside = false;  // another face
+    for (const auto& [low, high] : boxes)
+      expected += glm::all(glm::lessThan(low, p)) && glm::all(glm::lessThan(p, high));
+    for (int k = 0; k < 3; ++k)
+      for (const double face : {-1.0, -0.5, 0.0, 0.25, 0.5, 1.0, 1.5})
+        beside |= (k > 0 || face != 0) && std::abs(p[k] - face) < 1e-5;
+    beside |= std::abs(p.x) < 1e-6;
+    if (beside) continue;
+    const auto depth = body.depth(Vec3(p - center), random_direction(random));
+    doubtful += !depth;
+    REQUIRE(depth.value_or(expected) == expected);
+  }
+  CHECK(doubtful < 50);
+}
+
+TEST_CASE("an entry behind is found as far as asked for, and no exit") {
+  Mesh mesh = make_box({-1, -1, -1}, {0, 1, 1});
+  append(mesh, make_box({0, -1, -1}, {1, 1, 1}));
+  const Device device = make_device(1);
+  DVec3 center;
+  const MeshBody body(device.get(), mesh, DMat3(1), center);
+  const Vec3 p(Real(0.25), Real(0.1), Real(0.2));
+  const auto found = body.entry_behind(p, {1, 0, 0}, Real(0.5));
+  REQUIRE(found);
+  CHECK(found->distance == doctest::Approx(0.25).epsilon(1e-6));
+  CHECK(found->normal.x == -1);
+  CHECK(!body.entry_behind(p, {1, 0, 0}, Real(0.2)));
+  const auto other = body.entry_behind(p, {-1, 0, 0}, kFar);
+  REQUIRE(other);
+  CHECK(other->normal.x == 1);
+  CHECK(other->distance == doctest::Approx(0.75).epsilon(1e-6));
+}
