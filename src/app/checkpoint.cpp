@@ -141,8 +141,10 @@ void CheckpointKeeper::save(const Rendering& rendering) {
   try {
     save_checkpoint(path_, job_, rendering);
     kept_spp_ = rendering.spp;
+    said_.clear();
   } catch (const Error& error) {
-    std::fprintf(stderr, "meander: warning: no checkpoint: %s\n", error.what());
+    if (said_ != error.what()) std::fprintf(stderr, "meander: warning: no checkpoint: %s\n", error.what());
+    said_ = error.what();
   }
   since_ = Timer();
 }

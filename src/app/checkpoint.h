@@ -19,7 +19,7 @@ void save_checkpoint(const std::string& path, const Job& job, const Rendering& r
 [[nodiscard]] Rendering load_checkpoint(const std::string& path, const Job& job, const Budget& budget);
 
 /// Writes checkpoints every so many seconds. One that cannot be written is a warning on standard error, and
-/// leaves the one before it: the run goes on.
+/// leaves the one before it: the run goes on. The same reason is told once.
 class CheckpointKeeper {
  public:
   /// `path` empty: none is written. The job must outlive the keeper.
@@ -38,6 +38,7 @@ class CheckpointKeeper {
   double every_;
   Timer since_;
   std::uint64_t kept_spp_ = 0;
+  std::string said_;  // why the last one could not be written
 };
 
 }  // namespace meander

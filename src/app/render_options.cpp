@@ -73,6 +73,13 @@ void check_outputs(const RenderOptions& options, std::span<const std::string_vie
     if (std::filesystem::path(other).lexically_normal() ==
         std::filesystem::path(options.checkpoint).lexically_normal())
       throw Error(Fault::input, "--checkpoint must name another file than " + other);
+  // Hours of work may lie in it: only the run that goes on from there replaces it.
+  std::error_code ignored;
+  if (std::filesystem::exists(options.checkpoint, ignored) &&
+      !std::filesystem::equivalent(options.checkpoint, options.resume, ignored))
+    throw Error(Place{options.checkpoint, 0, 0}, "holds an earlier run: continue it with --resume " +
+                                                     options.checkpoint +
+                                                     ", or remove it, or name another file");
 }
 
 std::string without_samples(const FinishedRun& run) {

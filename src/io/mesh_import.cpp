@@ -8,6 +8,7 @@
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cstdlib>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -190,7 +191,11 @@ void import_mesh(const FileBytes& content, MeshFormat format, const std::string&
   keep_one_importer(importer, format);
   importer.SetIOHandler(new OneFile(name, content));
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
-  if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
+  if (scene == nullptr) {
+    const std::string why = importer.GetErrorString();
+    if (why == "std::bad_alloc") throw std::bad_alloc();  // the library catches it
+    throw std::runtime_error(why);
+  }
   put_scene(answer, *scene, format);
 }
 

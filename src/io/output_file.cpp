@@ -34,6 +34,15 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+// Where a path leads: what a link points to is written, and the link stays.
+fs::path target_of(const std::string& path) {
+  std::error_code failed;
+  const fs::path wanted(path);
+  if (!fs::is_symlink(wanted, failed)) return wanted;
+  const fs::path target = fs::weakly_canonical(wanted, failed);
+  return failed ? wanted : target;
+}
+
 // What temporary names of a path begin with; the process and the extension follow.
 std::string partial_prefix(const fs::path& wanted) { return "." + wanted.stem().string() + ".partial-"; }
 
@@ -55,10 +64,9 @@ void remove_abandoned(const fs::path& wanted) {
 // The file under its temporary name, locked; removed when it goes away before it was renamed.
 class Partial {
  public:
-  explicit Partial(const std::string& path) : path_(path) {
-    const fs::path wanted(path);
-    const std::string name = partial_prefix(wanted) + std::to_string(getpid());
-    partial_ = (folder_of(wanted) / (name + wanted.extension().string())).string();
+  explicit Partial(const std::string& path) : path_(path), target_(target_of(path)) {
+    const std::string name = partial_prefix(target_) + std::to_string(getpid());
+    partial_ = (folder_of(target_) / (name + target_.extension().string())).string();
     do {
       if (file_ >= 0) close(file_);
       file_ = open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
@@ -87,7 +95,7 @@ class Partial {
       throw system_refused(path_, errno);
     }
     if (close(std::exchange(file_, -1)) != 0) throw system_refused(path_, errno);
-    if (rename(partial_.c_str(), path_.c_str()) != 0) throw system_refused(path_, errno);
+    if (rename(partial_.c_str(), target_.c_str()) != 0) throw system_refused(path_, errno);
     renamed_ = true;
   }
 
@@ -99,7 +107,8 @@ class Partial {
     return flock(file_, LOCK_EX | LOCK_NB) == 0 && fstat(file_, &status) == 0 && status.st_nlink == 0;
   }
 
-  std::string path_;
+  std::string path_;  // as the caller calls it
+  fs::path target_;
   std::string partial_;
   int file_ = -1;
   bool renamed_ = false;
@@ -129,7 +138,7 @@ void check_writable(const std::string& path, std::span<const std::string_view> e
   if (fs::exists(wanted, ignored) && access(path.c_str(), W_OK) != 0) {
     throw system_refused(path, errno);
   }
-  remove_abandoned(wanted);
+  remove_abandoned(target_of(path));
   const Partial probe(path);
 }
 

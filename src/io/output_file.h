@@ -15,9 +15,9 @@ namespace meander {
 void check_writable(const std::string& path, std::span<const std::string_view> extensions);
 
 /// Replaces or creates `path`, through `.<stem>.partial-<pid><extension>` in the same folder, flushed to the
-/// device before it is renamed. Error with the system's reason, and no file of either name made, when it
-/// fails: (runtime) the device is full or broken, or the file grows beyond what the process may write;
-/// (input) anything else.
+/// device before it is renamed; where `path` is a link, what it points to, in that folder. Error with the
+/// system's reason, and no file of either name made, when it fails: (runtime) the device is full or broken, or
+/// the file grows beyond what the process may write; (input) anything else.
 void write_file(const std::string& path, std::span<const std::byte> bytes);
 
 /// The same of parts that follow one another in the file.

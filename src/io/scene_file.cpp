@@ -69,7 +69,7 @@ DocumentState open_document(const std::string& path, SceneCache& cache) {
     return state;
   }
   const auto cached = cache.mesh(path, false);
-  return parse_document(studio_text(*cached->mesh, std::filesystem::path(path).filename().string()), path);
+  return parse_document(studio_text(*cached->mesh, path), path);
 }
 
 SceneFile load_scene(const std::string& path, std::span<const std::string> edits) {

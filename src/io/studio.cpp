@@ -1,8 +1,10 @@
 #include "io/studio.h"
 
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
+#include "core/error.h"
 #include "io/scene_writer.h"
 #include "scene/camera_moves.h"
 
@@ -32,10 +34,18 @@ DVec3 direction(double azimuth, double elevation) {
 
 }  // namespace
 
-std::string studio_text(const Mesh& mesh, const std::string& mesh_name) {
+std::string studio_text(const Mesh& mesh, const std::string& path) {
+  constexpr double kLargest = 1e20;
   const Bounds bounds = bounds_of(mesh);
   const DVec3 center = 0.5 * (bounds.low + bounds.high);
   const double radius = 0.5 * glm::length(bounds.high - bounds.low);
+  if (!(radius <= kLargest && radius >= 1 / kLargest && glm::length(center) <= kLargest)) {
+    std::ostringstream text;
+    text << "is " << 2 * radius << " across, its middle " << glm::length(center)
+         << " from the origin; without a scene file a mesh must be 2e-20 to 2e20 across, within 1e20 of the "
+            "origin";
+    throw Error(Place{path, 0, 0}, text.str());
+  }
   Camera camera;
   camera.look_from = glm::normalize(DVec3(0.45, 0.4, 1));
   camera.vertical_fov = 30;
@@ -54,7 +64,8 @@ std::string studio_text(const Mesh& mesh, const std::string& mesh_name) {
        << "[[material]]\nname = \"wax\"\ncolor = [0.85, 0.6, 0.33]\nradius = "
        << triple(radius * DVec3(0.12, 0.06, 0.03)) << "\nboundary = \"diffuse\"\n"
        << "[[material]]\nname = \"ground\"\ntype = \"diffuse\"\ncolor = 0.3\n"
-       << "[[object]]\nname = \"object\"\nmaterial = \"wax\"\nmesh = " << toml_string(mesh_name)
+       << "[[object]]\nname = \"object\"\nmaterial = \"wax\"\nmesh = "
+       << toml_string(std::filesystem::path(path).filename().string())
        << "\n[[object]]\nname = \"ground\"\nmaterial = \"ground\"\nshape = \"slab\"\n"
        << "transform = { translate = " << triple(ground) << ", scale = " << number(radius) << " }\n";
   return text.str();

@@ -7,8 +7,8 @@
 
 namespace meander {
 
-/// The text of the scene file that shows a mesh; everything is placed and scaled by its bounds. `mesh_name`
-/// is what the object's `mesh` key says.
-[[nodiscard]] std::string studio_text(const Mesh& mesh, const std::string& mesh_name);
+/// The text of a scene file beside the mesh of `path` that shows it; everything is placed and scaled by its
+/// bounds. Error (input): too large, too small or too far from the origin for that.
+[[nodiscard]] std::string studio_text(const Mesh& mesh, const std::string& path);
 
 }  // namespace meander

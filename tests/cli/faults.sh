@@ -42,9 +42,9 @@ ends 3 'cannot write out/a.png: File too large' limited 0 "$meander" capture "$s
 ends 3 'cannot write out/b.exr: File too large' limited 2 "$meander" merge whole.exr next.exr -o out/b.exr
 holds out a.exr
 [[ $(cat out/a.exr) == before ]] || fail "a failed write changed the file that was there"
-# A checkpoint that cannot be written is worth a warning, and the image comes.
+# Checkpoints that cannot be written are worth one warning, and the image comes.
 status=0
-limited 64 "$meander" render "$scene" "${small[@]}" --spp 24 --checkpoint out/a.ckpt --every 1000 -o out/a.exr 2>said.txt || status=$?
+limited 64 "$meander" render "$scene" "${small[@]}" --spp 24 --checkpoint out/a.ckpt --every 1e-6 -o out/a.exr 2>said.txt || status=$?
 [[ $status -eq 0 && $(cat said.txt) == 'meander: warning: no checkpoint: cannot write out/a.ckpt: File too large' ]] ||
   fail "a run without its checkpoint: exit code $status, $(cat said.txt)"
 cmp out/a.exr whole.exr || fail "a run without its checkpoint gives another image"
@@ -116,6 +116,24 @@ ends 2 'with walk batch; this one has scalar' "${run[@]}" --seed 3 --walk scalar
 ends 2 'none.ckpt: there is no such checkpoint' "${run[@]}" --seed 3 --resume none.ckpt
 ends 2 'whole.exr: is no checkpoint of meander' "${run[@]}" --seed 3 --resume whole.exr
 ends 2 '--checkpoint' "${run[@]}" --every 3
+
+# A checkpoint is replaced by the run that goes on from it, and by no other.
+cp run.ckpt kept.ckpt
+ends 2 'run.ckpt: holds an earlier run: continue it with --resume run.ckpt, or remove it, or name another file' \
+  "${run[@]}" --seed 3 --spp 4 --checkpoint run.ckpt
+ends 2 'run.ckpt: holds an earlier run' "${run[@]}" --seed 3 --spp 8 --resume kept.ckpt --checkpoint run.ckpt
+cmp run.ckpt kept.ckpt || fail "a refused run has changed another's checkpoint"
+"${run[@]}" --seed 3 --spp 8 --resume run.ckpt --checkpoint ./run.ckpt || fail "a run that goes on in its own checkpoint"
+cmp -s run.ckpt kept.ckpt && fail "a run that goes on has not replaced its checkpoint"
+rm -f out/a.exr kept.ckpt
+
+# Through a link what it points to is written, whole, beside itself.
+mkdir -p far && ln -s ../far/b.exr out/b.exr && echo old >far/b.exr
+"$meander" render scene.toml "${small[@]}" --spp 2 -o out/b.exr || fail "a render through a link"
+[[ -L out/b.exr && $(ls -A far) == b.exr ]] || fail "a link was replaced, or something was left beside its target"
+head -c 4 far/b.exr | cmp - <(printf '\x76\x2f\x31\x01') || fail "what a link points to was not written"
+rm -rf far out/b.exr
+
 sed -i 's/^albedo.*/albedo = 0.91/' scene.toml
 ends 2 "is a checkpoint of another scene, or of other values of it" "${run[@]}" --seed 3 --resume run.ckpt
 holds out file

@@ -26,7 +26,8 @@ bool replay(meander::FuzzTarget target, const meander::FuzzFolder& folder, const
   try {
     const meander::FuzzOutcome outcome = meander::try_input(target, folder, bytes_of(path));
     const double seconds = meander::processor_seconds() - before;
-    std::printf("%s: %.3f s: %s\n", path.c_str(), seconds, outcome.words.c_str());
+    const char* slow = seconds < kMostSeconds ? "" : "FINDING: too slow: ";
+    std::printf("%s: %s%.3f s: %s\n", path.c_str(), slow, seconds, outcome.words.c_str());
     read = read || outcome.read;
     return seconds < kMostSeconds;
   } catch (const std::exception& error) {

@@ -8,7 +8,7 @@
 # are replayed under it by ctest --preset asan.
 #
 # A finding is: a report of a sanitizer or an assertion, a broken promise of targets.h,
-# 3 s of processor time for one input (under the sanitizers; the corpora are replayed without them, in 1 s each), one
+# 3 s of processor time for one input (under the sanitizers; all that was kept is replayed without the first, in 1 s each), one
 # allocation over 1 GiB, or 2 GiB resident. Nothing goes by the clock, which runs on while a process is stopped.
 set -euo pipefail
 
@@ -40,8 +40,9 @@ run_once() {
 }
 
 # Until the processor seconds are spent: another process after a finding, and where the clock ran faster than the work.
+# One that ends at once without a finding is broken itself, and its log is the finding.
 fuzz() {
-  local target=$1 seconds=$2 folder=$out/$1 round=0 spent=0 found=0
+  local target=$1 seconds=$2 folder=$out/$1 round=0 spent=0 found=0 runs
   mkdir -p "$folder"/{corpus,findings,logs}
   rm -f "$folder"/logs/*
   cp "$root/tests/fuzz/corpus/$target"/* "$folder/corpus/"
@@ -49,7 +50,10 @@ fuzz() {
     round=$((round + 1))
     run_once "$target" $((seconds - spent < 60 ? 60 : seconds - spent)) "$folder/logs/$round"
     spent=$(cat "$folder"/logs/*.time | awk '{ sum += $1 + $2 } END { printf "%d", sum + 0.5 }')
+    runs=$(grep -c '^#' "$folder/logs/$round" || true)
+    ((runs > 0)) || cp "$folder/logs/$round" "$folder/findings/broken-$round"
     found=$(find "$folder/findings" -type f | wc -l)
+    ((runs > 0)) || break
   done
   mkdir -p "$folder/minimised"
   rm -f "$folder/minimised"/*
@@ -63,6 +67,25 @@ build_and_replay() {
   cmake --preset "$1"
   cmake --build --preset "$1" --parallel "$(nproc)" --target fuzz_replay "${targets[@]/#/fuzz_}"
   "build/$1/tests/fuzz/fuzz_replay" tests/fuzz/corpus
+}
+
+# Every input that was kept, and the seeds of the targets that did not run, in 1 s each; what is slower or worse is a
+# finding of its target.
+replay_kept() {
+  local target kept line
+  rm -rf "$out/kept"
+  for target in "${all[@]}"; do
+    mkdir -p "$out/kept/$target"
+    kept=$out/$target/minimised
+    [[ -n $(find "$kept" -type f -print -quit 2>/dev/null) ]] || kept=$root/tests/fuzz/corpus/$target
+    cp "$kept"/* "$out/kept/$target/"
+  done
+  "$root/build/fuzz-shut-in/tests/fuzz/fuzz_replay" "$out/kept" >"$out/kept.log" || true
+  while read -r line; do
+    target=${line#"$out/kept/"} target=${target%%/*}
+    mkdir -p "$out/$target/findings"
+    echo "$line" >>"$out/$target/findings/replayed"
+  done < <(grep FINDING "$out/kept.log")
 }
 
 row() {
@@ -92,6 +115,7 @@ main() {
     fuzz "$target" "$seconds" &
   done
   wait
+  replay_kept
   printf '%-8s %12s %10s %10s %10s %8s %10s\n' target runs coverage features seconds inputs findings
   for target in "${targets[@]}"; do row "$target"; done
   [[ -z $(for target in "${targets[@]}"; do find "$out/$target/findings" -type f; done) ]]

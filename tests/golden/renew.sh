@@ -3,7 +3,7 @@
 # (build/release). Commit the result. Each renewal is a row of RECORD.csv: what, when, by which version and commit, with
 # which seed, samples a pixel and walk, how long it took, and why. The statistical ones are rendered by the scalar walk, the
 # oracle, with 16 times the samples of the test that takes most, and a seed that no test has: the column `seconds` tells what
-# that takes. The drawn ones take seconds.
+# that takes. The drawn ones take seconds. The build is that of the committed code, or the record would name another.
 set -euo pipefail
 fail() { echo "renew.sh: $*" >&2; exit 2; }
 [[ $# -ge 2 && -n ${2//[[:space:]]/} ]] || fail "usage: renew.sh BUILD REASON [NAME…]; a golden image changes only for a reason"
@@ -14,6 +14,7 @@ meander=$build/src/app/meander draw=$build/tests/golden/golden_draw
 seed=1000003 factor=16 largest=65536
 [[ -x $meander ]] || fail "$meander is not there: build it first"
 commit=$(git -C "$here" describe --always --dirty=+ 2>/dev/null || echo unknown)
+git -C "$here/../.." diff --quiet HEAD -- src third_party CMakeLists.txt 2>/dev/null || fail "src differs from what is committed: commit first, so that the record names the code"
 version="$("$meander" --version) $commit"
 
 statistical=$(grep -v '^#' "$here/statistical.csv" | tail -n +2 | cut -d, -f1 | sort -u)
