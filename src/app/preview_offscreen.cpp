@@ -1,4 +1,5 @@
 // The previewer without a display.
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -15,6 +16,7 @@ namespace meander {
 namespace {
 
 constexpr int kHopeless = 200;
+constexpr double kFadedIn = 0.2;  // seconds after which a message is as it stays
 
 // The frame that is drawn into, which a script may resize.
 class Easel {
@@ -97,7 +99,9 @@ OffscreenFrame run_offscreen(const SceneDocument& document, const PreviewOptions
     }
     if (player) player->play(stage, timer.seconds());
     still = done ? still + 1 : 0;
-    if (still > 3) break;
+    const bool faded_in = std::ranges::all_of(previewer.state().messages,
+                                              [](const Message& message) { return message.age > kFadedIn; });
+    if (still > 3 && faded_in) break;
     if (!due) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   if (previewer.spp() == 0 && !quit && !previewer.closing()) refuse_nothing(previewer, stop);

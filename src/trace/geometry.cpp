@@ -1,5 +1,9 @@
 #include "trace/geometry.h"
 
+#include <tbb/info.h>
+
+#include <algorithm>
+
 #include "math/free_path.h"
 
 namespace meander {
@@ -192,7 +196,8 @@ double half_diagonal(const DMat3& map) noexcept {
 }  // namespace
 
 Geometry::Geometry(const Scene& scene, int threads, const Geometry* previous)
-    : threads_(threads), device_(previous ? previous->device_ : nullptr) {
+    : threads_(std::min(threads, tbb::info::default_concurrency())),  // oneTBB warns of more
+      device_(previous ? previous->device_ : nullptr) {
   for (const Object& object : scene.objects) bodies_.push_back(make_body(object, scene, previous));
   for (Body& body : bodies_) {
     body.holds_light = body.matched && holds_light(body, scene);

@@ -85,6 +85,11 @@ mutant first_exit_kept mean_path_plates_lanes trace/ray_batch.cpp \
 mutant packet_planes_shrunk mean_path_knot_lanes trace/packet_rays-inl.h \
   'hn::And(hn::Le(from, slack), hn::Ge(to, hn::Neg(slack)))' \
   'hn::And(hn::Le(from, hn::Neg(slack)), hn::Ge(to, hn::Set(d, 0.002f)))'
+mutant inside_by_the_nearest_wall picture_touching trace/geometry.cpp \
+  'if (const auto depth = mesh.depth(p, d)) return *depth > 0;' ''
+mutant second_wall_not_entered picture_touching_lanes trace/geometry.cpp 'inside && !placement.matched' 'false'
+mutant wall_of_the_neighbour_met picture_touching_lanes walk/passage.inl \
+  '!stuck && !meets_neighbour(crossing, here)' '!stuck'
 
 # Paths.
 mutant shadow_roulette_without_factor picture_fog_lanes walk/shadow_roulette.h 'return 1 / p;' 'return 1;'

@@ -49,8 +49,31 @@ Scene glowing_ball() {
   return scene;
 }
 
-Film rendered(const Scene& scene, WalkCode code, std::uint64_t spp) {
+// Between two planes of x, one unit wide.
+Mesh block(double low, double high) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.emplace_back(i & 1 ? high : low, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+// Bodies of cloudy glass in a white surround.
+Scene glass(const std::vector<Mesh>& meshes) {
+  Scene scene = white_ball();
+  scene.camera = {{3, 1, 1}, {0, 0, 0}, {0, 1, 0}, 30, {}};
+  scene.materials[0] = {"glass",
+                        TranslucentMaterial{{Rgb(3), Rgb(Real(0.7)), 0}, Boundary::dielectric, 1.5, 0}};
+  scene.objects.clear();
+  for (const Mesh& mesh : meshes)
+    scene.objects.push_back({"block", std::make_shared<const Mesh>(mesh), 0, {}});
+  return scene;
+}
+
+Film rendered(const Scene& scene, WalkCode code, std::uint64_t spp, std::uint64_t seed = 0) {
   Job job;
+  job.seed = seed;
   job.threads = 1;
   job.walk = code;
   job.scene = std::make_shared<const Scene>(scene);
@@ -83,16 +106,30 @@ Film found(const Scene& scene, std::uint32_t spp) {
   return film;
 }
 
-void compare(Verdict& v, const Scene& scene, WalkCode code) {
-  const ZTest z = z_test(resolve(rendered(scene, code, 600)), resolve(found(scene, 1500)), {}, {1e-5});
+void compare(Verdict& v, const Film& film, const Film& truth) {
+  const ZTest z = z_test(resolve(film), resolve(truth), {}, {1e-5});
   v.require("p of single pixels", z.pixels_p, 1e-5, 1);
   v.require("p of blocks", z.block_p, 1e-5, 1);
   v.require("p of the picture", z.image_p, 1e-5, 1);
 }
 
+void compare(Verdict& v, const Scene& scene, WalkCode code) {
+  compare(v, rendered(scene, code, 600), found(scene, 1500));
+}
+
 void picture_lit(Verdict& v, WalkCode code) { compare(v, lit_ball(), code); }
 void picture_fog(Verdict& v, WalkCode code) { compare(v, lamp_over_fog(), code); }
 void picture_outline(Verdict& v, WalkCode code) { compare(v, glowing_ball(), code); }
+
+// Two blocks that touch are the same whether they are one mesh or two. The thin one keeps light from the
+// thick one where it is reflected totally.
+void picture_touching(Verdict& v, WalkCode code) {
+  Mesh both = block(-1, 0);
+  const Mesh thin = block(0, 0.1);
+  both.positions.insert(both.positions.end(), thin.positions.begin(), thin.positions.end());
+  for (const Triangle& t : thin.triangles) both.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  compare(v, rendered(glass({both}), code, 2000), rendered(glass({block(-1, 0), thin}), code, 2000, 1));
+}
 
 // A white body in a white surround vanishes.
 void picture_furnace(Verdict& v, WalkCode code) {
@@ -112,6 +149,7 @@ void picture_furnace(Verdict& v, WalkCode code) {
 constexpr Oracle kOracles[]{{"picture_lit", picture_lit},
                             {"picture_fog", picture_fog},
                             {"picture_outline", picture_outline},
+                            {"picture_touching", picture_touching},
                             {"picture_furnace", picture_furnace}};
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -54,6 +55,20 @@ Growth growth(const std::vector<MemorySample>& samples, double MemorySample::*qu
   }
   const double span = samples.back().seconds - samples.front().seconds;
   return {slope * span, std::sqrt(residual / (count - 2) / variance) * span};
+}
+
+std::array<double, 4> quarters(const std::vector<MemorySample>& samples, double MemorySample::*quantity) {
+  std::array<double, 4> medians{};
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    std::vector<double> values;
+    for (std::size_t i = quarter * samples.size() / 4; i < (quarter + 1) * samples.size() / 4; ++i)
+      values.push_back(samples[i].*quantity);
+    if (values.empty()) continue;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    medians[quarter] = *middle;
+  }
+  return medians;
 }
 
 }  // namespace meander

@@ -1,6 +1,7 @@
 // What the process holds, and whether it grows.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -24,5 +25,10 @@ struct Growth {
 
 /// What a straight line through the samples (least squares) gains from the first to the last.
 [[nodiscard]] Growth growth(const std::vector<MemorySample>& samples, double MemorySample::*quantity);
+
+/// The median of each quarter of the samples, the earliest first: what fills once and then stays differs from
+/// what grows for ever.
+[[nodiscard]] std::array<double, 4> quarters(const std::vector<MemorySample>& samples,
+                                             double MemorySample::*quantity);
 
 }  // namespace meander

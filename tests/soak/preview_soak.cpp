@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 #include "soak/heap.h"
 #include "soak/soak.h"
@@ -68,12 +69,16 @@ void judge(std::vector<MemorySample> samples) {
   const double span = samples.back().seconds - samples.front().seconds;
   const Growth heap = growth(samples, &MemorySample::heap);
   const Growth resident = growth(samples, &MemorySample::resident);
-  MESSAGE(samples.size() << " samples over " << span << " s: heap " << samples.front().heap / kMebibyte
-                         << " to " << samples.back().heap / kMebibyte << " MiB, by its line "
-                         << heap.bytes / kMebibyte << " +- " << heap.error / kMebibyte << "; resident "
-                         << samples.front().resident / kMebibyte << " to "
-                         << samples.back().resident / kMebibyte << " MiB, by its line "
-                         << resident.bytes / kMebibyte << " +- " << resident.error / kMebibyte);
+  const auto said = [&](const char* name, double MemorySample::*quantity, const Growth& line) {
+    std::ostringstream text;
+    text << name << ' ' << samples.front().*quantity / kMebibyte << " to "
+         << samples.back().*quantity / kMebibyte << " MiB, by its line " << line.bytes / kMebibyte << " +- "
+         << line.error / kMebibyte << ", medians of its quarters";
+    for (const double median : quarters(samples, quantity)) text << ' ' << median / kMebibyte;
+    return text.str();
+  };
+  MESSAGE(samples.size() << " samples over " << span << " s: " << said("heap", &MemorySample::heap, heap)
+                         << "; " << said("resident", &MemorySample::resident, resident));
   if (span < kSecondsThatTell) return;
   CHECK(heap.bytes / kMebibyte < kHeapPerHour * std::max(1.0, span / 3600));
   CHECK(resident.bytes / kMebibyte < kResidentPerHour * std::max(1.0, span / 3600));
@@ -89,6 +94,8 @@ TEST_CASE("the growth of samples is that of their line") {
   CHECK(heap.error == doctest::Approx(std::sqrt(120.0 / 11 / 9 / 11000) * 100).epsilon(0.01));
   CHECK(growth(samples, &MemorySample::resident).bytes == doctest::Approx(0));
   CHECK(growth({}, &MemorySample::heap).bytes == 0);
+  CHECK(quarters(samples, &MemorySample::resident) == std::array<double, 4>{7, 7, 7, 7});
+  CHECK(quarters(samples, &MemorySample::heap)[3] == 526);
 }
 
 TEST_CASE("the heap's bytes are seen") {
