@@ -26,6 +26,8 @@ void check_device(RTCDevice device, const char* doing) {
 // Of a size about 1: how far around a point rounding is looked for, and what outweighs a point's rounding.
 constexpr Real kMargin = Real(0x1p-14);
 constexpr Real kOffset = Real(0x1p-21);
+// Longer than any way through the bounds.
+constexpr Real kReach = 4;
 
 RTCRayHit make_query(const Vec3& o, const Vec3& d, Real distance) noexcept {
   RTCRayHit query;
@@ -187,8 +189,8 @@ MeshBody::Begun MeshBody::restore(Begun begun, Real distance) const noexcept {
 
 void MeshBody::begin_crossings(const Steps& steps, std::span<Begun> begun) const noexcept {
   static_assert(kRayBatch >= Steps::kMost);
-  ShortRays rays{};  // vectors read beyond the last one
-  ShortExit exits[kRayBatch];
+  GridRays rays{};  // vectors read beyond the last one
+  GridExit exits[kRayBatch];
   const std::size_t count = begun.size();
   const auto scale = static_cast<float>(inverse_scale_);
   constexpr auto kBehind = static_cast<float>(kMargin);
@@ -197,7 +199,8 @@ void MeshBody::begin_crossings(const Steps& steps, std::span<Begun> begun) const
       rays.direction[axis][i] = steps.direction[axis][i];
       rays.origin[axis][i] = steps.from[axis][i] * scale - kBehind * steps.direction[axis][i];
     }
-  for (std::size_t i = 0; i < count; ++i) rays.distance[i] = steps.distance[i] * scale + 2 * kBehind;
+  for (std::size_t i = 0; i < count; ++i)
+    rays.distance[i] = std::min(steps.distance[i] * scale + 2 * kBehind, static_cast<float>(kReach));
   find_exits(packets_, cells_, rays, std::span(exits).first(count));
   for (std::size_t i = 0; i < count; ++i) {
     const Step step{{steps.from[0][i], steps.from[1][i], steps.from[2][i]},
@@ -220,7 +223,7 @@ Crossing MeshBody::finish_crossing(const Begun& begun) const noexcept {
 
 Crossing MeshBody::first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept {
   const Step step = scaled({p, d, distance});
-  return finish_crossing(restore(cross(step, find_exit(packets_, cells_, short_ray(step))), distance));
+  return finish_crossing(restore(cross(step, find_exit(packets_, cells_, grid_ray(step))), distance));
 }
 
 Crossing MeshBody::first_crossing_in_tree(const Vec3& p, const Vec3& d, Real distance) const noexcept {
@@ -264,15 +267,19 @@ MeshBody::Begun MeshBody::without_exit(const Vec3& p, const Vec3& d, Real distan
 
 // Looking from a little behind finds the exit that rounding may have carried the point across; looking a
 // little too far finds the surface that the end of the step may round across.
-ShortRay MeshBody::short_ray(const Step& step) noexcept {
+GridRay MeshBody::grid_ray(const Step& step) noexcept {
   return {glm::vec3(step.from - kMargin * step.direction), glm::vec3(step.direction),
-          static_cast<float>(step.distance + 2 * kMargin)};
+          static_cast<float>(std::min(step.distance + 2 * kMargin, kReach))};
 }
 
-MeshBody::Begun MeshBody::cross(const Step& step, const ShortExit& exit) const noexcept {
+MeshBody::Begun MeshBody::cross(const Step& step, const GridExit& exit) const noexcept {
   const auto& [p, d, distance] = step;
-  if (exit.kind == ShortExit::Kind::none) return without_exit(p, d, distance);
-  if (exit.kind == ShortExit::Kind::unknown || exit.distance < kMargin) return cross_in_tree(p, d, distance);
+  if (exit.kind == GridExit::Kind::none) {
+    const Begun inside = without_exit(p, d, distance);
+    if (inside.crossing.kind != CrossingKind::leaked) return inside;
+  }
+  // What seems to leave through a hole may have been aimed at a corner.
+  if (exit.kind != GridExit::Kind::exit || exit.distance < kMargin) return cross_in_tree(p, d, distance);
   return cross_at(p, d, distance,
                   {exit.triangle, exit.distance, Vec3(exit.point), Vec3(exit.normal), exit.u, exit.v});
 }

@@ -49,7 +49,7 @@ class MeshBody {
 
   /// The step of length `distance` (>= 0, may be infinite) from a point inside along a unit direction. Only
   /// crossings outward count. A point that rounding left outside leaves at once, and one about to be left
-  /// outside is moved in by the offset. Short steps are looked up in a grid, the others in Embree's tree.
+  /// outside is moved in by the offset. Looked up in a grid; in Embree's tree where that has no answer.
   [[nodiscard]] Crossing first_crossing(const Vec3& p, const Vec3& d, Real distance) const noexcept;
 
   /// The same, always by Embree's tree: the oracle of the grid.
@@ -127,8 +127,8 @@ class MeshBody {
   [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, Real u, Real v,
                                     const Vec3& normal) const noexcept;
   [[nodiscard]] bool is_outside(const Vec3& p, const Vec3& d) const noexcept;
-  [[nodiscard]] static ShortRay short_ray(const Step& step) noexcept;
-  [[nodiscard]] Begun cross(const Step& step, const ShortExit& exit) const noexcept;
+  [[nodiscard]] static GridRay grid_ray(const Step& step) noexcept;
+  [[nodiscard]] Begun cross(const Step& step, const GridExit& exit) const noexcept;
   [[nodiscard]] Begun cross_in_tree(const Vec3& p, const Vec3& d, Real distance) const noexcept;
   [[nodiscard]] static Begun cross_at(const Vec3& p, const Vec3& d, Real distance, const Met& met) noexcept;
   [[nodiscard]] Begun without_exit(const Vec3& p, const Vec3& d, Real distance) const noexcept;

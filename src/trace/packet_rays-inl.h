@@ -95,8 +95,8 @@ template <class D, class V>
 }
 
 // The exit by one of a packet's triangles; unknown where rounding leaves no weights.
-[[nodiscard]] HWY_INLINE ShortExit pick(const Exits<VF>& exits, const Packet& packet, std::size_t at,
-                                        std::size_t lane) {
+[[nodiscard]] HWY_INLINE GridExit pick(const Exits<VF>& exits, const Packet& packet, std::size_t at,
+                                       std::size_t lane) {
   alignas(32) float rows[6][kPacket];
   const VF values[6] = {exits.t, exits.u, exits.v, exits.normal.x, exits.normal.y, exits.normal.z};
   for (int i = 0; i < 6; ++i) hn::Store(values[i], F(), rows[i]);
@@ -107,7 +107,7 @@ template <class D, class V>
   const auto corner = [&](int k) {
     return glm::vec3(packet.corner[k][0][slot], packet.corner[k][1][slot], packet.corner[k][2][slot]);
   };
-  return {ShortExit::Kind::exit,
+  return {GridExit::Kind::exit,
           rows[0][lane],
           u,
           v,
@@ -116,8 +116,7 @@ template <class D, class V>
           packet.triangle[slot]};
 }
 
-constexpr int kMostCells = 24;  // that a short ray passes
-constexpr float kLongest = 24;  // of a short ray, in cells
+constexpr int kMostCells = 1024;  // more than any ray passes in a grid
 
 // Steps from cell to cell.
 struct CellWalk {
@@ -127,7 +126,7 @@ struct CellWalk {
   glm::vec3 between;  // two such
 
   CellWalk() = default;
-  HWY_INLINE CellWalk(const SurfaceCells& grid, const ShortRay& ray) {
+  HWY_INLINE CellWalk(const SurfaceCells& grid, const GridRay& ray) {
     const glm::vec3 place = (ray.origin - grid.low) * grid.cells_per_unit;
     for (int axis = 0; axis < 3; ++axis) {
       const float floor = std::floor(place[axis]);

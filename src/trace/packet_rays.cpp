@@ -16,13 +16,13 @@ namespace meander::HWY_NAMESPACE {
 // The nearest exit so far along one ray.
 class ExitSearch {
  public:
-  HWY_INLINE ExitSearch(const Packets& packets, const ShortRay& ray)
+  HWY_INLINE ExitSearch(const Packets& packets, const GridRay& ray)
       : packets_(packets),
         flight_{set(ray.origin), set(ray.direction), hn::Set(F(), ray.distance)},
         distance_(ray.distance) {}
 
   [[nodiscard]] HWY_INLINE float distance() const { return distance_; }
-  [[nodiscard]] HWY_INLINE const ShortExit& found() const { return found_; }
+  [[nodiscard]] HWY_INLINE const GridExit& found() const { return found_; }
 
   HWY_INLINE void look_into(const SurfaceCells::List& list) {
     for (const std::uint32_t number : list.packets) {
@@ -37,7 +37,7 @@ class ExitSearch {
  private:
   void keep(const Exits<VF>& exits, const Packet& packet, std::size_t at) {
     const float t = hn::GetLane(hn::MinOfLanes(F(), exits.t));
-    if (!(t <= distance_) || (found_.kind != ShortExit::Kind::none && t == distance_)) return;
+    if (!(t <= distance_) || (found_.kind != GridExit::Kind::none && t == distance_)) return;
     const auto lane = hn::FindFirstTrue(F(), hn::Eq(exits.t, hn::Set(F(), t)));
     found_ = pick(exits, packet, at, static_cast<std::size_t>(lane));
     distance_ = t;
@@ -47,11 +47,10 @@ class ExitSearch {
   const Packets& packets_;
   Flight<VF> flight_;
   float distance_;
-  ShortExit found_{ShortExit::Kind::none, 0, 0, 0, {}, {}, 0};
+  GridExit found_{GridExit::Kind::none, 0, 0, 0, {}, {}, 0};
 };
 
-ShortExit find(const Packets& packets, const SurfaceCells& grid, const ShortRay& ray) {
-  if (!(ray.distance * grid.cells_per_unit < kLongest)) return {};
+GridExit find(const Packets& packets, const SurfaceCells& grid, const GridRay& ray) {
   ExitSearch search(packets, ray);
   CellWalk walk(grid, ray);
   if (!in_grid(grid, walk.cell)) return {};
@@ -76,7 +75,7 @@ namespace meander {
 
 HWY_EXPORT(find);
 
-ShortExit find_exit(const Packets& packets, const SurfaceCells& cells, const ShortRay& ray) noexcept {
+GridExit find_exit(const Packets& packets, const SurfaceCells& cells, const GridRay& ray) noexcept {
   return HWY_DYNAMIC_DISPATCH(find)(packets, cells, ray);
 }
 

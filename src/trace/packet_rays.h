@@ -1,4 +1,4 @@
-// What SIMD asks of packets: the first way out along a short ray, and the nearest triangle.
+// What SIMD asks of packets: the first way out along a ray.
 #pragma once
 
 #include "trace/surface_cells.h"
@@ -6,7 +6,7 @@
 namespace meander {
 
 /// From `origin` along a unit direction, all of size about 1.
-struct ShortRay {
+struct GridRay {
   glm::vec3 origin;
   glm::vec3 direction;
   float distance;
@@ -14,8 +14,8 @@ struct ShortRay {
 
 /// `distance` along the ray to the first triangle that it leaves by; `point` is there, where the triangle's
 /// second and third corners weigh u and v; `normal` has that triangle's direction outward, and any length.
-/// `unknown`: the ray is too long for the grid, starts beyond it, or leaves by a triangle seen edge-on.
-struct ShortExit {
+/// `unknown`: there is no grid, the ray starts beyond it, or leaves by a triangle seen edge-on.
+struct GridExit {
   enum class Kind { unknown, none, exit } kind;
   float distance;
   float u;
@@ -27,7 +27,7 @@ struct ShortExit {
 
 /// Watertight as Embree's robust test is: a ray that passes an edge meets one of the two triangles there,
 /// whose edge functions are the same numbers with the sign turned. The same bits on every instruction set.
-[[nodiscard]] ShortExit find_exit(const Packets& packets, const SurfaceCells& cells,
-                                  const ShortRay& ray) noexcept;
+[[nodiscard]] GridExit find_exit(const Packets& packets, const SurfaceCells& cells,
+                                 const GridRay& ray) noexcept;
 
 }  // namespace meander

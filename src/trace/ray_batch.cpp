@@ -29,11 +29,11 @@ HWY_INLINE VR rays_of(float value) { return hn::Set(R(), value); }
 // part is appended to a list whether it is wanted or not, and the list's end moves if it is.
 class ExitBatch {
  public:
-  HWY_INLINE ExitBatch(const Packets& packets, const SurfaceCells& grid, const ShortRays& rays,
+  HWY_INLINE ExitBatch(const Packets& packets, const SurfaceCells& grid, const GridRays& rays,
                        std::size_t count)
       : packets_(packets), grid_(grid), rays_(rays), count_(count) {}
 
-  HWY_INLINE void run(std::span<ShortExit> exits) {
+  HWY_INLINE void run(std::span<GridExit> exits) {
     begin();
     for (int i = 0; i < kMostCells && active_count_ > 0; ++i) {
       find_lists();
@@ -89,12 +89,11 @@ class ExitBatch {
       }
       const auto number = hn::Add(hn::Iota(RU(), 0), hn::Set(RU(), static_cast<std::uint32_t>(at)));
       const auto real = hn::Lt(number, hn::Set(RU(), static_cast<std::uint32_t>(count_)));
-      const MR is_short = hn::Lt(hn::Mul(distance, rays_of(grid_.cells_per_unit)), rays_of(kLongest));
       // The next number after the distance.
       const auto beyond = hn::Add(hn::BitCast(RU(), distance), hn::Set(RU(), 1));
       hn::Store(hn::BitCast(R(), beyond), R(), limit_ + at);
       hn::Store(hn::Set(RU(), kNone), RU(), best_ + at);
-      const MR active = keep_active(at, hn::And(is_short, hn::RebindMask(R(), real)));
+      const MR active = keep_active(at, hn::RebindMask(R(), real));
       hn::Store(states(active, kActive, kUnknown), RU(), state_ + at);
     }
   }
@@ -317,9 +316,9 @@ class ExitBatch {
     hn::Store(hn::IfThenElse(moves, hn::Add(next, between), next), R(), next_[axis] + at);
   }
 
-  HWY_INLINE void finish(std::span<ShortExit> exits) {
+  HWY_INLINE void finish(std::span<GridExit> exits) {
     for (std::uint32_t i = 0; i < count_; ++i) {
-      exits[i].kind = state_[i] == kKnown ? ShortExit::Kind::none : ShortExit::Kind::unknown;
+      exits[i].kind = state_[i] == kKnown ? GridExit::Kind::none : GridExit::Kind::unknown;
       if (state_[i] != kKnown || best_[i] == kNone) continue;
       const std::uint32_t packet = best_[i] / kWidth;
       const std::size_t slot = best_[i] % kWidth;
@@ -331,7 +330,7 @@ class ExitBatch {
 
   const Packets& packets_;
   const SurfaceCells& grid_;
-  const ShortRays& rays_;
+  const GridRays& rays_;
   std::size_t count_;
   // Of each ray, the cells as CellWalk has them, and where that of the moment is.
   alignas(64) Row cell_[3];
@@ -353,8 +352,8 @@ class ExitBatch {
   std::size_t due_count_ = 0;
 };
 
-void find_all(const Packets& packets, const SurfaceCells& grid, const ShortRays& rays,
-              std::span<ShortExit> exits) {
+void find_all(const Packets& packets, const SurfaceCells& grid, const GridRays& rays,
+              std::span<GridExit> exits) {
   ExitBatch(packets, grid, rays, exits.size()).run(exits);
 }
 
@@ -366,10 +365,10 @@ namespace meander {
 
 HWY_EXPORT(find_all);
 
-void find_exits(const Packets& packets, const SurfaceCells& cells, const ShortRays& rays,
-                std::span<ShortExit> exits) noexcept {
+void find_exits(const Packets& packets, const SurfaceCells& cells, const GridRays& rays,
+                std::span<GridExit> exits) noexcept {
   if (cells.bricks.empty())
-    std::fill(exits.begin(), exits.end(), ShortExit{});
+    std::fill(exits.begin(), exits.end(), GridExit{});
   else
     HWY_DYNAMIC_DISPATCH(find_all)(packets, cells, rays, exits);
 }

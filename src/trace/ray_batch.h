@@ -1,4 +1,4 @@
-// Many short rays at once, see packet_rays.h.
+// Many rays at once, see packet_rays.h.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ namespace meander {
 inline constexpr std::size_t kRayBatch = 128;
 
 /// Rays in rows.
-struct alignas(64) ShortRays {
+struct alignas(64) GridRays {
   float origin[3][kRayBatch];
   float direction[3][kRayBatch];
   float distance[kRayBatch];
@@ -19,7 +19,7 @@ struct alignas(64) ShortRays {
 
 /// What find_exit finds for each of the first rays, as many as there are exits (at most kRayBatch); the same
 /// bits. Up to 15 rays beyond are read too: they must hold numbers.
-void find_exits(const Packets& packets, const SurfaceCells& cells, const ShortRays& rays,
-                std::span<ShortExit> exits) noexcept;
+void find_exits(const Packets& packets, const SurfaceCells& cells, const GridRays& rays,
+                std::span<GridExit> exits) noexcept;
 
 }  // namespace meander

@@ -1,5 +1,5 @@
-// A sparse grid that knows which packets of triangles reach into each of its cells: what a short ray near the
-// surface asks instead of walking down a tree.
+// A sparse grid that knows which packets of triangles reach into each of its cells: what a ray asks instead
+// of walking down a tree.
 #pragma once
 
 #include "trace/packets.h"

@@ -133,7 +133,9 @@ BENCHMARK_CAPTURE(lanes_mesh_sphere, isotropic, Real(0))
     ->ArgNames(kMeshArgs)
     ->Args({10, 3, 128})
     ->Args({10, 3, 64})
-    ->Args({10, 3, 96});
+    ->Args({10, 3, 96})
+    ->Args({100, 3, 64})
+    ->Args({1000, 3, 64});
 BENCHMARK_CAPTURE(lanes_torus_knot, isotropic, Real(0))
     ->ArgNames(kMeshArgs)
     ->Args({10, 3, 128})

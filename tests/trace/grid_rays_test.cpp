@@ -97,15 +97,21 @@ bool alike(const Crossing& a, const Crossing& b, const Vec3& d) {
   return std::abs(a.distance - b.distance) <= slack && glm::length(a.point - b.point) <= slack + Real(1e-6);
 }
 
-// Whether the tree itself changes its mind when the step is moved by about the rounding of its place.
-bool is_at_an_edge(const MeshBody& body, const Vec3& p, const Vec3& d, Real distance, Random& random) {
+// Whether a difference is one of rounding: the tree itself changes its mind when the step is moved by about
+// the rounding of its place, or grid and tree agree for almost all such steps, as where a ray slips through
+// the very corner of some triangles.
+bool is_rounding(const MeshBody& body, const Vec3& p, const Vec3& d, Real distance, Random& random) {
+  constexpr int kMoved = 256;
   const Crossing tree = body.first_crossing_in_tree(p, d, distance);
-  for (int i = 0; i < 256; ++i) {
+  int differ = 0;
+  for (int i = 0; i < kMoved; ++i) {
     const Vec3 moved = p + Real(0x1p-21) * random_direction(random);
     const Vec3 turned = glm::normalize(d + Real(0x1p-21) * random_direction(random));
-    if (!alike(tree, body.first_crossing_in_tree(moved, turned, distance), d)) return true;
+    const Crossing again = body.first_crossing_in_tree(moved, turned, distance);
+    if (!alike(tree, again, d)) return true;
+    differ += !alike(again, body.first_crossing(moved, turned, distance), d);
   }
-  return false;
+  return differ < kMoved / 32;
 }
 
 struct NoEvents {
@@ -117,7 +123,7 @@ struct NoEvents {
 
 }  // namespace
 
-TEST_CASE("short steps cross where the tree says, also at edges and corners") {
+TEST_CASE("steps cross where the tree says, also at edges and corners") {
   const Device device = make_device(1);
   for (const Case& c : cases()) {
     if (c.name == kNeedles) continue;
@@ -132,11 +138,12 @@ TEST_CASE("short steps cross where the tree says, also at edges and corners") {
       const Vec3 to = random_place(c.mesh, center, Real(1e-6), random);
       const bool aims = i % 3 == 0 && glm::length(to - p) > Real(1e-3);  // at an edge, often
       const Vec3 d = aims ? glm::normalize(to - p) : random_direction(random);
-      const Real distance = aims ? 2 : Real(-0.02) * std::log(1 - random.next());
+      const Real flight = Real(-0.02) * std::log(1 - random.next());
+      const Real distance = aims ? 2 : i % 3 == 1 ? flight : std::numeric_limits<Real>::infinity();
       if (alike(body.first_crossing_in_tree(p, d, distance), body.first_crossing(p, d, distance), d))
         continue;
       ++differ;
-      wrong += !is_at_an_edge(body, p, d, distance, random);
+      wrong += !is_rounding(body, p, d, distance, random);
     }
     MESSAGE(c.name << ": " << differ << " of 300000 differ");
     CHECK(differ < 1000);
@@ -165,15 +172,15 @@ struct Searched {
   }
 };
 
-bool same(const ShortExit& a, const ShortExit& b) {
+bool same(const GridExit& a, const GridExit& b) {
   if (a.kind != b.kind) return false;
-  if (a.kind != ShortExit::Kind::exit) return true;
+  if (a.kind != GridExit::Kind::exit) return true;
   return a.distance == b.distance && a.u == b.u && a.v == b.v && a.point == b.point && a.normal == b.normal &&
          a.triangle == b.triangle;
 }
 
 // Rays that are short, a few cells long, too long for the grid, along its axes, or start beyond it.
-ShortRay random_ray(const Mesh& mesh, const DVec3& center, Random& random) {
+GridRay random_ray(const Mesh& mesh, const DVec3& center, Random& random) {
   const auto kind = random.next_bits() % 8;
   const Vec3 p = random_place(mesh, center, kind == 7 ? 3 : Real(0.02), random);
   Vec3 d = random_direction(random);
@@ -193,11 +200,11 @@ TEST_CASE("rays side by side find what each finds alone, to the bit, on every in
     int found[3] = {};
     int differ = 0;
     for (std::size_t batch = 0; batch < 300; ++batch) {
-      ShortRays rays{};
-      ShortExit alone[kRayBatch];
+      GridRays rays{};
+      GridExit alone[kRayBatch];
       const std::size_t count = batch < 129 ? batch : 1 + random.next_bits() % kRayBatch;
       for (std::size_t i = 0; i < count; ++i) {
-        const ShortRay ray = random_ray(c.mesh, center, random);
+        const GridRay ray = random_ray(c.mesh, center, random);
         for (int axis = 0; axis < 3; ++axis) {
           rays.origin[axis][i] = ray.origin[axis];
           rays.direction[axis][i] = ray.direction[axis];
@@ -208,7 +215,7 @@ TEST_CASE("rays side by side find what each finds alone, to the bit, on every in
       }
       for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
         hwy::GetChosenTarget().Update(left & -left);
-        ShortExit together[kRayBatch];
+        GridExit together[kRayBatch];
         find_exits(searched.packets, searched.cells, rays, std::span(together).first(count));
         for (std::size_t i = 0; i < count; ++i) differ += !same(alone[i], together[i]);
       }
