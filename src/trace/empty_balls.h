@@ -8,8 +8,8 @@ namespace meander {
 
 /// Cells along the longest side of the bounds, whatever the mean free path: what a finer field saves in rays
 /// it loses in memory that is far away. Walks a second over those with 64 cells, one core: 100 820-triangle
-/// sphere at a mean free path of 0.01, 96 cells 0.90, 128 0.89; torus knot at 0.01, 128 0.96; at 0.1, 32
-/// cells 0.97, 128 0.87.
+/// sphere at a mean free path of 0.01, 96 cells 0.95, 128 0.89; torus knot at 0.01, 128 0.95; at 0.1, 32
+/// cells 0.97, 128 0.83; at 0.3, 16 0.89, 32 0.99; at 3, 16 0.92, 32 0.98.
 inline constexpr int kDefaultCells = 64;
 
 /// Balls in the body's own coordinates, each smaller than the distance from its centre to the surface by more
