@@ -96,6 +96,17 @@ std::optional<BodyHit> hit_at_once(const MeshBody& mesh, const Approach& ray, co
   return BodyHit{0, entry->point, entry->normal, entry->shading_normal};
 }
 
+// Of two walls at one place a ray from inside of the first body leaves that one before it enters the second.
+std::optional<MeshHit> exit_before(const MeshBody& mesh, const Vec3& origin, const Vec3& d,
+                                   const std::pair<Real, Real>& place) noexcept {
+  const auto& [distance, rounding] = place;
+  const Real begin = std::max(distance - rounding, Real(0));
+  auto exit = mesh.exit_within(origin + begin * d, d, 2 * rounding);
+  if (!exit || !is_inside(mesh, origin, d)) return std::nullopt;
+  exit->distance += begin;
+  return exit;
+}
+
 // On the rim of a mesh a ray may slip past the last triangle that faces it and meet the next one from behind.
 // Where a mesh is closed, such a hit from outside is no hit.
 std::optional<BodyHit> first_hit(const MeshBody& mesh, const Approach& ray, const Placement& placement,
@@ -106,12 +117,16 @@ std::optional<BodyHit> first_hit(const MeshBody& mesh, const Approach& ray, cons
   const double reach = distance + ray.slack - *entry;
   const Real step = placement.size * Real(0x1p-20);
   for (Real start = 0; double{start} <= reach;) {
-    const auto hit =
-        mesh.closest(origin + start * ray.direction, ray.direction, static_cast<Real>(reach) - start);
+    auto hit = mesh.closest(origin + start * ray.direction, ray.direction, static_cast<Real>(reach) - start);
     if (!hit) return std::nullopt;
     start += hit->distance;
     const double met = *entry + double{start};
-    const bool leaves = glm::dot(hit->normal, ray.direction) >= 0;
+    bool leaves = glm::dot(hit->normal, ray.direction) >= 0;
+    if (!leaves && placement.closed && *entry == 0)
+      if (const auto exit = exit_before(mesh, origin, ray.direction, {start, step})) {
+        hit = exit;
+        leaves = true;
+      }
     const bool behind = leaves && ray.slack > 0 && met <= 2 * ray.slack;
     const bool asks = leaves && placement.closed && !behind;
     const bool inside = asks && *entry == 0 && is_inside(mesh, origin, ray.direction);

@@ -145,6 +145,10 @@ std::optional<MeshHit> MeshBody::closest(const Vec3& o, const Vec3& d, Real dist
   return hit_by(o, d, distance, nullptr);
 }
 
+std::optional<MeshHit> MeshBody::exit_within(const Vec3& o, const Vec3& d, Real distance) const noexcept {
+  return hit_by(o, d, distance, accept_exits);
+}
+
 // Who goes backward leaves by it.
 std::optional<MeshHit> MeshBody::entry_behind(const Vec3& p, const Vec3& d, Real distance) const noexcept {
   return hit_by(p, -d, distance, accept_exits);

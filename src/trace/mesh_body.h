@@ -91,6 +91,10 @@ class MeshBody {
   /// where the two ends differ or are in doubt, as above.
   [[nodiscard]] std::optional<int> depth(const Vec3& p, const Vec3& d) const noexcept;
 
+  /// The first wall within `distance` along a ray that it leaves by, whatever else it meets.
+  [[nodiscard]] std::optional<MeshHit> exit_within(const Vec3& o, const Vec3& d,
+                                                   Real distance) const noexcept;
+
   /// The last wall within `distance` behind a point that one who comes along `d` enters by.
   [[nodiscard]] std::optional<MeshHit> entry_behind(const Vec3& p, const Vec3& d,
                                                     Real distance) const noexcept;

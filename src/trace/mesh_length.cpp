@@ -76,18 +76,24 @@ std::optional<int> MeshBody::depth(const Vec3& p, const Vec3& d) const noexcept 
 std::optional<double> MeshBody::length_inside(const Vec3& o, const Vec3& d, double distance,
                                               bool outside) const noexcept {
   Gathering gathering = gather_from(scene_.get(), glm::vec3(o * inverse_scale_), glm::vec3(d), kDoubtful);
-  if (gathering.doubtful || (outside && gathering.count % 2 != 0)) return std::nullopt;
+  if (gathering.doubtful) return std::nullopt;
   const auto end = gathering.met.begin() + static_cast<std::ptrdiff_t>(gathering.count);
   std::sort(gathering.met.begin(), end,
             [](const Meeting& a, const Meeting& b) { return a.distance < b.distance; });
   const double reach = distance * double{inverse_scale_};
   double inside = 0;
-  bool leaves = true;  // what the next one back from the far end does: the line ends outside
-  for (auto at = end; at != gathering.met.begin(); leaves = !leaves) {
+  int depth = 0;  // between two meetings, from the far end back: the line ends outside
+  double beyond = reach;
+  for (auto at = end; at != gathering.met.begin();) {
     --at;
-    if (at->leaves != leaves) return std::nullopt;
-    inside += (leaves ? 1 : -1) * std::min(double{at->distance}, reach);
+    const double here = std::min(double{at->distance}, reach);
+    if (depth > 0) inside += beyond - here;
+    depth += at->leaves ? 1 : -1;
+    if (depth < 0 && at != gathering.met.begin() && (at - 1)->distance != at->distance) return std::nullopt;
+    beyond = here;
   }
+  if (depth < 0 || (outside && depth != 0)) return std::nullopt;
+  if (depth > 0) inside += beyond;
   return inside * double{scale_};
 }
 

@@ -89,6 +89,23 @@ Mesh joined(const std::pair<Mesh, Mesh>& meshes) {
   return mesh;
 }
 
+Mesh make_divided_cube() {
+  const DVec3 middle(0.1, 0.2, -0.15);
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    const DVec3 corner(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    Mesh block = make_cube();
+    // On the middle exactly, or on the corner.
+    for (DVec3& p : block.positions)
+      for (int axis = 0; axis < 3; ++axis) {
+        const double inner = p[axis] * corner[axis];  // -1 at the middle, 1 at the corner
+        p[axis] = inner < 0 ? middle[axis] : inner > 0 ? corner[axis] : 0.5 * (middle[axis] + corner[axis]);
+      }
+    mesh = joined({mesh, block});
+  }
+  return mesh;
+}
+
 Mesh make_hollow_cube(double thickness) {
   Mesh mesh = make_cube();
   const Mesh hole = make_cube();

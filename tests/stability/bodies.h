@@ -29,6 +29,10 @@ namespace meander {
 /// otherwise than the other's.
 [[nodiscard]] std::pair<Mesh, Mesh> make_touching_cubes();
 
+/// The cube [-1, 1]^3 as eight blocks in one mesh, each with all of its faces, that meet in (0.1, 0.2,
+/// -0.15).
+[[nodiscard]] Mesh make_divided_cube();
+
 /// Both in one mesh.
 [[nodiscard]] Mesh joined(const std::pair<Mesh, Mesh>& meshes);
 

@@ -194,6 +194,17 @@ void add_touching_cases(std::vector<Case>& rows) {
     rows.push_back({"hard meshes", "two blocks face to face in one mesh, " + name, "the same as two objects",
                     turned(shape_of(joined({left, right})), material), 2000, Same{std::move(two)}});
   }
+  Scene eight = turned(shape_of(make_divided_cube()), kMatched);
+  Scene one = turned(shape_of(make_cube()), kMatched);
+  rows.push_back({"hard meshes", "eight blocks that meet in a point in one mesh, matched",
+                  "the same as one block", eight, 2000, Same{one}});
+  for (Scene* scene : {&eight, &one}) {
+    scene->environment.radiance = Rgb(0);
+    scene->lights.push_back(
+        {"lamp", RectangleLight{{2, 3, 2}, {0, 0, 0}, {0, 1, 0}, 1.5, 1.5, Rgb(20)}, false});
+  }
+  rows.push_back({"hard meshes", "eight blocks that meet in a point in one mesh, under a lamp",
+                  "the same as one block", eight, 2000, Same{one}});
 }
 
 }  // namespace
