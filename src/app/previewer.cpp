@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <utility>
 
 #include "app/preview_commands.h"
 #include "core/error.h"
@@ -131,7 +132,9 @@ void Previewer::feed(const InputEvent& event) {
   if (event.kind == InputKind::drop) return take_drop(event);
   interface_.feed(event);
   const auto command = command_of(event, held_);
-  if (command && !interface_.wants_keyboard()) carry_out(*command);
+  if (command) chords_.push_back(*command);
+  pressed_ |= event.kind == InputKind::button;
+  if (!pressed_) carry_out_chords();
   InputEvent in_points = event;
   in_points.x *= event.kind == InputKind::scroll ? 1 : pointer_scale_;
   in_points.y *= event.kind == InputKind::scroll ? 1 : pointer_scale_;
@@ -164,6 +167,13 @@ void Previewer::take_drop(const InputEvent& event) {
       state_.tell(MessageKind::error, error.what());
     }
   }
+}
+
+// What keys ask for while no text is being typed. Asked where the interface has seen every press before them:
+// one may have been a click into a field.
+void Previewer::carry_out_chords() {
+  for (const Command& command : std::exchange(chords_, {}))
+    if (!interface_.wants_keyboard()) carry_out(command);
 }
 
 bool Previewer::update(double now) {
@@ -211,6 +221,9 @@ void Previewer::draw_interface_over(const PreviewSurface& surface) {
   const ImDrawData* data = interface_.end_frame();
   interface_view_.draw(*data, surface.pixels_wide, surface.pixels_high);
   carry_out_all(actions);
+  if (interface_.pending()) return;
+  pressed_ = false;
+  carry_out_chords();
 }
 
 void Previewer::draw(const PreviewSurface& surface) {

@@ -88,6 +88,7 @@ class Previewer {
   void set_gesture(bool on);
   void list_folder_for_browser();
   [[nodiscard]] bool may_quit();
+  void carry_out_chords();
   void take_drop(const InputEvent& event);
   void carry_out_all(const UiActions& actions);
   [[nodiscard]] PictureArea picture_area() const;
@@ -105,6 +106,8 @@ class Previewer {
   std::unique_ptr<Session> session_;
   UiState ui_;
   HeldKeys held_;
+  std::vector<Command> chords_;  // of keys, not carried out yet
+  bool pressed_ = false;         // a button, since the interface last saw everything
   Navigation navigation_;
   ClipboardAccess clipboard_;
   FileWatch files_;

@@ -91,8 +91,11 @@ bool in_range(const InputEvent& event, std::size_t size) {
 }
 
 // Whether the event has to wait for the next frame: ImGui 1.86 knows states, not what happened in between. A
-// release waits for the move before it, which is the end of a drag.
+// release waits for the move before it, which is the end of a drag, and what is typed for the click before
+// it, which may be into a field.
 bool must_wait(const InputEvent& event, const Changed& changed) {
+  const bool typed = event.kind == InputKind::key || event.kind == InputKind::text;
+  if (typed && changed.any_button) return true;
   if (event.kind == InputKind::button)
     return in_range(event, changed.buttons.size()) &&
            (changed.buttons[static_cast<std::size_t>(event.code)] || (!event.down && changed.moved));
@@ -245,7 +248,7 @@ bool Interface::wants_mouse(float x, float y) const {
 
 bool Interface::wants_keyboard() const {
   ImGui::SetCurrentContext(state_->context);
-  return ImGui::GetIO().WantTextInput ||
+  return state_->context->WantTextInputNextFrame > 0 ||
          ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 

@@ -68,7 +68,7 @@ class Interface {
   /// Whether a pointer at x, y points is the interface's business, not the picture's, by what the last frame
   /// showed there: the pointer may have come from elsewhere since. Not to be asked within a frame.
   [[nodiscard]] bool wants_mouse(float x, float y) const;
-  /// Likewise the keyboard, as of the last frame.
+  /// Likewise the keyboard, as the last frame left it.
   [[nodiscard]] bool wants_keyboard() const;
   [[nodiscard]] PointerShape pointer_shape() const;
 

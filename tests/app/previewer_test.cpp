@@ -131,4 +131,64 @@ TEST_CASE("a press is the picture's or the interface's by where it was made, how
   CHECK_FALSE(edited());
 }
 
+TEST_CASE("a key in the frame of a click is the field's that was clicked, a shortcut where there is none") {
+  const Offscreen context(1280, 720);
+  PreviewOptions options;
+  options.settings.threads = 1;
+  options.settings.budget.spp = 1;
+  Previewer previewer(context.functions(), Desk::small(kKnot), options, 1);
+  FrameShape shape;
+  shape.pixels_wide = 1280;
+  shape.pixels_high = 720;
+  const Modifiers control{false, true, false, false};
+  InputEvent at;
+  const auto send = [&](InputKind kind, int code, bool down, const Modifiers& modifiers) {
+    at.kind = kind;
+    at.code = code;
+    at.down = down;
+    at.modifiers = modifiers;
+    previewer.feed(at);
+  };
+  const auto draw = [&] {
+    for (int frame = 0; frame < 4; ++frame) previewer.draw(shape);
+  };
+  const auto click = [&] {
+    send(InputKind::move, 0, false, control);
+    send(InputKind::button, 0, true, control);
+    send(InputKind::button, 0, false, control);
+  };
+  const auto press = [&](int code) {
+    send(InputKind::key, code, true, {});
+    send(InputKind::key, code, false, {});
+  };
+  const auto selecting = [&] { return previewer.state().look.selecting; };
+  draw();
+  at.x = 1150;
+  for (at.y = 60; previewer.pointer_shape() != PointerShape::text; at.y += 8) {
+    REQUIRE(at.y < 700);
+    click();
+    draw();
+  }
+  at.y -= 8;
+  press(key::kEscape);
+  draw();
+  click();
+  press('X');
+  draw();
+  CHECK_FALSE(selecting());
+  CHECK(previewer.pointer_shape() == PointerShape::text);
+  press(key::kEscape);
+  draw();
+  CHECK_FALSE(previewer.closing());
+  at.x = 400;
+  at.y = 300;
+  click();
+  press('X');
+  CHECK_FALSE(selecting());  // not known yet whose it is
+  draw();
+  CHECK(selecting());
+  press('X');
+  CHECK_FALSE(selecting());
+}
+
 }  // namespace meander
