@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "trace/packet_distances.h"
 #include "trace/ray_batch.h"
+#include "trace/triangle_place.h"
 
 namespace meander {
 namespace {
@@ -125,12 +126,13 @@ Real MeshBody::looks_behind() const noexcept { return kMargin * scale_; }
 
 MeshBody::Met MeshBody::met_by(const RTCRayHit& query) const noexcept {
   const Triangle& t = triangles_[query.hit.primID];
-  const Real u = query.hit.u;
-  const Real v = query.hit.v;
-  const Vec3 point =
-      (1 - u - v) * Vec3(positions_[t[0]]) + u * Vec3(positions_[t[1]]) + v * Vec3(positions_[t[2]]);
-  return {
-      query.hit.primID, query.ray.tfar, point, Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z), u, v};
+  const RTCRay& ray = query.ray;
+  const glm::vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+  const glm::vec3 near =
+      glm::vec3(ray.org_x, ray.org_y, ray.org_z) + ray.tfar * glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z);
+  const TrianglePlace place = place_on({positions_[t[0]], positions_[t[1]], positions_[t[2]]}, query.hit.u,
+                                       query.hit.v, near, normal);
+  return {query.hit.primID, ray.tfar, Vec3(place.point), Vec3(normal), Real(place.u), Real(place.v)};
 }
 
 Vec3 MeshBody::shading_normal(std::uint32_t triangle, Real u, Real v, const Vec3& normal) const noexcept {

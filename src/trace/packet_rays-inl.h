@@ -13,6 +13,7 @@
 
 #include "trace/packet_lanes-inl.h"
 #include "trace/packet_rays.h"
+#include "trace/triangle_place.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace meander::HWY_NAMESPACE {
@@ -94,9 +95,9 @@ template <class D, class V>
                   load(packet.corner[1], at) - flight.origin, load(packet.corner[2], at) - flight.origin);
 }
 
-// The exit by one of a packet's triangles; unknown where rounding leaves no weights.
+// The exit of a ray by one of a packet's triangles; unknown where rounding leaves no weights.
 [[nodiscard]] HWY_INLINE GridExit pick(const Exits<VF>& exits, const Packet& packet, std::size_t at,
-                                       std::size_t lane) {
+                                       std::size_t lane, const GridRay& ray) {
   alignas(32) float rows[6][kPacket];
   const VF values[6] = {exits.t, exits.u, exits.v, exits.normal.x, exits.normal.y, exits.normal.z};
   for (int i = 0; i < 6; ++i) hn::Store(values[i], F(), rows[i]);
@@ -107,13 +108,10 @@ template <class D, class V>
   const auto corner = [&](int k) {
     return glm::vec3(packet.corner[k][0][slot], packet.corner[k][1][slot], packet.corner[k][2][slot]);
   };
-  return {GridExit::Kind::exit,
-          rows[0][lane],
-          u,
-          v,
-          (1 - u - v) * corner(0) + u * corner(1) + v * corner(2),
-          {rows[3][lane], rows[4][lane], rows[5][lane]},
-          packet.triangle[slot]};
+  const glm::vec3 normal(rows[3][lane], rows[4][lane], rows[5][lane]);
+  const glm::vec3 near = ray.origin + rows[0][lane] * ray.direction;
+  const TrianglePlace place = place_on({corner(0), corner(1), corner(2)}, u, v, near, normal);
+  return {GridExit::Kind::exit, rows[0][lane], place.u, place.v, place.point, normal, packet.triangle[slot]};
 }
 
 constexpr int kMostCells = 1024;  // more than any ray passes in a grid

@@ -18,6 +18,7 @@ class ExitSearch {
  public:
   HWY_INLINE ExitSearch(const Packets& packets, const GridRay& ray)
       : packets_(packets),
+        ray_(ray),
         flight_{set(ray.origin), set(ray.direction), hn::Set(F(), ray.distance)},
         distance_(ray.distance) {}
 
@@ -39,12 +40,13 @@ class ExitSearch {
     const float t = hn::GetLane(hn::MinOfLanes(F(), exits.t));
     if (!(t <= distance_) || (found_.kind != GridExit::Kind::none && t == distance_)) return;
     const auto lane = hn::FindFirstTrue(F(), hn::Eq(exits.t, hn::Set(F(), t)));
-    found_ = pick(exits, packet, at, static_cast<std::size_t>(lane));
+    found_ = pick(exits, packet, at, static_cast<std::size_t>(lane), ray_);
     distance_ = t;
     flight_.distance = hn::Set(F(), t);
   }
 
   const Packets& packets_;
+  const GridRay& ray_;
   Flight<VF> flight_;
   float distance_;
   GridExit found_{GridExit::Kind::none, 0, 0, 0, {}, {}, 0};

@@ -324,7 +324,10 @@ class ExitBatch {
       const std::size_t slot = best_[i] % kWidth;
       const std::size_t at = slot / hn::Lanes(F()) * hn::Lanes(F());
       const Packet& left_by = packets_.packets[packet];
-      exits[i] = pick(exits_by(left_by, at, flight(i, rays_.distance[i])), left_by, at, slot - at);
+      const GridRay ray{{from_[4 * i], from_[4 * i + 1], from_[4 * i + 2]},
+                        {along_[4 * i], along_[4 * i + 1], along_[4 * i + 2]},
+                        rays_.distance[i]};
+      exits[i] = pick(exits_by(left_by, at, flight(i, ray.distance)), left_by, at, slot - at, ray);
     }
   }
 

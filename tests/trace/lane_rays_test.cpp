@@ -1,7 +1,10 @@
 // Rays that lanes begin together, in a mesh.
 #include <doctest/doctest.h>
 
+#include "math/random.h"
+#include "math/warp.h"
 #include "trace/empty_balls.h"
+#include "trace/mesh_cases.h"
 #include "walk/lane_walks.h"
 
 using namespace meander;
@@ -33,6 +36,40 @@ struct Zeros {
   [[nodiscard]] bool stop() const { return false; }
 };
 
+// White walks from the middles of triangles, inward.
+struct FromTheSurface {
+  const Mesh& mesh;
+  DVec3 center;
+  std::uint32_t left;
+  std::uint32_t next = 0;
+  int exits = 0;
+  int leaks = 0;
+
+  [[nodiscard]] bool start(int, Walker& walker, Random& random) {
+    if (next == left) return false;
+    random = stream(2, 0, next++);
+    walker = {};
+    const Triangle& t = mesh.triangles[random.next_bits() % mesh.triangles.size()];
+    const DVec3& a = mesh.positions[t[0]];
+    const DVec3& b = mesh.positions[t[1]];
+    const DVec3& c = mesh.positions[t[2]];
+    const Vec3 normal(glm::normalize(glm::cross(b - a, c - a)));
+    walker.position = Vec3((a + b + c) / 3.0 - center) - Real(0x1p-20) * normal;
+    const Real u1 = random.next();
+    const Real u2 = random.next();
+    walker.direction = sample_sphere({u1, u2});
+    if (glm::dot(walker.direction, normal) > 0) walker.direction = -walker.direction;
+    return true;
+  }
+  [[nodiscard]] bool end(int lane, const WalkResult& result, Walker& walker, Random& random) {
+    exits += result.end == WalkEnd::exited && walker.weight.carried() == Rgb(1);
+    leaks += result.end == WalkEnd::leaked;
+    return start(lane, walker, random);
+  }
+  void collided(int, Walker&, Random&) {}
+  [[nodiscard]] bool stop() const { return false; }
+};
+
 }  // namespace
 
 TEST_CASE(
@@ -52,5 +89,26 @@ TEST_CASE(
     REQUIRE(LaneWalks(set, body, model, client).run());
     CHECK(client.exits == 1000);
     CHECK(client.astray == 0);
+  }
+}
+
+TEST_CASE("walks in lanes leave a closed mesh by its surface, all of them, with all of their weight") {
+  constexpr std::uint32_t kWalks = 20'000;
+  const Device device = make_device(1);
+  for (const MeshCase& c : mesh_cases()) {
+    CAPTURE(c.name);
+    DVec3 center;
+    const MeshBody body(device.get(), c.mesh, DMat3(1), center);
+    const EmptyBalls balls = make_empty_balls(body, 2);
+    for (const Real sigma_t : {Real(3), Real(100)}) {
+      const LaneModel model{
+          {Rgb(sigma_t), Rgb(1), 0}, {.kind = SafeRegion::Kind::balls, .balls = &balls}, false};
+      for (const InstructionSet set : instruction_sets()) {
+        FromTheSurface client{c.mesh, center, kWalks};
+        REQUIRE(LaneWalks(set, body, model, client).run());
+        CHECK(client.leaks == 0);
+        CHECK(client.exits == kWalks);
+      }
+    }
   }
 }
