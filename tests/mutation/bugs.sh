@@ -88,6 +88,8 @@ mutant packet_planes_shrunk mean_path_knot_lanes trace/packet_rays-inl.h \
 mutant inside_by_the_nearest_wall picture_touching trace/geometry.cpp \
   'if (const auto depth = mesh.depth(p, d)) return *depth > 0;' ''
 mutant second_wall_not_entered picture_touching_lanes trace/geometry.cpp 'inside && !placement.matched' 'false'
+mutant entry_before_the_exit picture_divided trace/geometry.cpp \
+  'if (!exit || !is_inside(mesh, origin, d)) return std::nullopt;' 'return std::nullopt;'
 mutant wall_of_the_neighbour_met picture_touching_lanes walk/passage.inl \
   '!stuck && !meets_neighbour(crossing, here)' '!stuck'
 

@@ -49,14 +49,27 @@ Scene glowing_ball() {
   return scene;
 }
 
-// Between two planes of x, one unit wide.
-Mesh block(double low, double high) {
+Mesh cuboid(const DVec3& low, const DVec3& high) {
   Mesh mesh;
   for (int i = 0; i < 8; ++i)
-    mesh.positions.emplace_back(i & 1 ? high : low, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
+    mesh.positions.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
+}
+
+// Between two planes of x, one unit wide.
+Mesh block(double low, double high) { return cuboid({low, -0.5, -0.5}, {high, 0.5, 0.5}); }
+
+Mesh joined(const std::vector<Mesh>& meshes) {
+  Mesh all;
+  for (const Mesh& mesh : meshes) {
+    const auto first = static_cast<std::uint32_t>(all.positions.size());
+    all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    for (const Triangle& t : mesh.triangles)
+      all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  return all;
 }
 
 // Bodies of cloudy glass in a white surround.
@@ -124,11 +137,28 @@ void picture_outline(Verdict& v, WalkCode code) { compare(v, glowing_ball(), cod
 // Two blocks that touch are the same whether they are one mesh or two. The thin one keeps light from the
 // thick one where it is reflected totally.
 void picture_touching(Verdict& v, WalkCode code) {
-  Mesh both = block(-1, 0);
   const Mesh thin = block(0, 0.1);
-  both.positions.insert(both.positions.end(), thin.positions.begin(), thin.positions.end());
-  for (const Triangle& t : thin.triangles) both.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  const Mesh both = joined({block(-1, 0), thin});
   compare(v, rendered(glass({both}), code, 2000), rendered(glass({block(-1, 0), thin}), code, 2000, 1));
+}
+
+// Eight matched blocks that meet in a point are the same as the cube that they make: who has left one is
+// inside of the second, which he leaves before he enters the third.
+void picture_divided(Verdict& v, WalkCode code) {
+  std::vector<Mesh> blocks;
+  const DVec3 middle(0.1, 0.2, -0.15);
+  for (int i = 0; i < 8; ++i) {
+    const DVec3 corner(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    blocks.push_back(cuboid(glm::min(corner, middle), glm::max(corner, middle)));
+  }
+  Scene eight = lamp_over_fog();
+  eight.camera.look_from = {4, 3, 5};
+  eight.materials[0] = {"fog", TranslucentMaterial{{Rgb(2), Rgb(Real(0.9)), 0}, Boundary::matched}};
+  eight.objects[0].transform.rotate = {20, 30, 10};  // so that walls at one place are met in either order
+  Scene one = eight;
+  eight.objects[0].shape = std::make_shared<const Mesh>(joined(blocks));
+  one.objects[0].shape = std::make_shared<const Mesh>(cuboid(DVec3(-1), DVec3(1)));
+  compare(v, rendered(eight, code, 5000), rendered(one, code, 5000, 1));
 }
 
 // A white body in a white surround vanishes.
@@ -146,11 +176,9 @@ void picture_furnace(Verdict& v, WalkCode code) {
   }
 }
 
-constexpr Oracle kOracles[]{{"picture_lit", picture_lit},
-                            {"picture_fog", picture_fog},
-                            {"picture_outline", picture_outline},
-                            {"picture_touching", picture_touching},
-                            {"picture_furnace", picture_furnace}};
+constexpr Oracle kOracles[]{{"picture_lit", picture_lit},         {"picture_fog", picture_fog},
+                            {"picture_outline", picture_outline}, {"picture_touching", picture_touching},
+                            {"picture_divided", picture_divided}, {"picture_furnace", picture_furnace}};
 
 }  // namespace
 
