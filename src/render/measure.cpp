@@ -52,7 +52,7 @@ struct BlockLanes {
     walk.record();
     return start(lane, walker, random);
   }
-  void collided(int, Walker&, Random&) const noexcept {}
+  void collided(int, Real, Walker&, Random&) const noexcept {}
   void tally(int lane, Real path, Real absorbed) noexcept {
     walks[static_cast<std::size_t>(lane)].tally(double{path}, double{absorbed});
   }

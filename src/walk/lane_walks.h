@@ -12,15 +12,16 @@ namespace meander {
 /// What gives a batch its walks and takes them back.
 /// start(lane, walker, random): sets up the first walk of a lane, or says false when there is none left.
 /// end(lane, result, walker, random): a walk of the lane has ended; true when another (the same one, sent
-/// back inside, or a new one) has been set up in its place. collided(lane, walker, random): see WalkEvents::
-/// scattered; the random numbers it draws are the walk's. tally(lane, path, absorbed), which a client may
-/// have besides: what the walk has flown, times its weight, and left behind, of the first channel, since the
-/// last call.
+/// back inside, or a new one) has been set up in its place. collided(lane, clearance, walker, random): see
+/// WalkEvents::scattered; the surface is at least `clearance` (scene units, 0 where nothing is known) away,
+/// and the random numbers it draws are the walk's. tally(lane, path, absorbed), which a client may have
+/// besides: what the walk has flown, times its weight, and left behind, of the first channel, since the last
+/// call.
 template <class C>
 concept LaneClient = requires(C& client, int lane, const WalkResult& result, Walker& walker, Random& random) {
   { client.start(lane, walker, random) } -> std::same_as<bool>;
   { client.end(lane, result, walker, random) } -> std::same_as<bool>;
-  client.collided(lane, walker, random);
+  client.collided(lane, Real(0), walker, random);
   { client.stop() } -> std::same_as<bool>;
 };
 
@@ -57,6 +58,7 @@ class LaneWalks {
       if (client_.stop()) return false;
       advance_lanes(set_, model_, lanes_, kLanes, kLanes - in_use_ + std::min(kRestingLanes, in_use_));
       find_resting(set_, model_, lanes_, resting_);
+      give_balls_where_collided();
       if constexpr (kTogether)
         begin_rays();
       else
@@ -86,6 +88,34 @@ class LaneWalks {
     lanes_.due[lane] = static_cast<std::uint32_t>(due);
     fresh_[fresh_count_++] = static_cast<std::uint32_t>(lane);
     put_[lane] = {walker.weight.ratio, walker.weight.since, walker.weight.order, walker.weight.hero};
+  }
+
+  // Collisions want the best ball that is known about their place, not the one that they came in.
+  void give_balls_where_collided() noexcept {
+    if (!model_.rests_at_collisions) return;
+    for (int i = 0; i < resting_.count; ++i) {
+      const std::uint32_t lane = resting_.lane[i];
+      fresh_[fresh_count_] = lane;
+      fresh_count_ += lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::collided);
+    }
+    give_balls();
+  }
+
+  // After a collision: the lane keeps its ball, which the walk is in still.
+  void go_on(int lane, const Walker& walker, const Random& random) noexcept {
+    const float radius2 = lanes_.ball_radius2[lane];
+    put_walker(lanes_, lane, walker, random, model_.medium.sigma_t[walker.weight.hero]);
+    lanes_.ball_radius2[lane] = radius2;
+    lanes_.due[lane] = static_cast<std::uint32_t>(LaneDue::scattering);
+    put_[lane] = {walker.weight.ratio, walker.weight.since, walker.weight.order, walker.weight.hero};
+  }
+
+  // How far away from a lane's walk the surface is, at least.
+  [[nodiscard]] Real clearance(int lane) const noexcept {
+    if (!model_.region.balls) return model_.region.clearance(position(lane));
+    const Vec3 center(lanes_.ball_center[0][lane], lanes_.ball_center[1][lane], lanes_.ball_center[2][lane]);
+    const Real square(lanes_.ball_radius2[lane]);
+    return square > 0 ? std::max(std::sqrt(square) - glm::distance(center, position(lane)), Real(0)) : 0;
   }
 
   // The walk of a lane. What it came with from before the body is folded in at its first collision; until
@@ -170,8 +200,8 @@ class LaneWalks {
     Walker walker = walker_in(lane);
     Random random = random_of(lanes_, lane);
     if (state == LaneState::collided) {
-      client_.collided(lane, walker, random);
-      put(lane, walker, random, LaneDue::scattering);
+      client_.collided(lane, clearance(lane), walker, random);
+      go_on(lane, walker, random);
       return;
     }
     if (state == LaneState::crossing) leave(lane, result, walker);

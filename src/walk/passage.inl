@@ -99,9 +99,14 @@ struct PathTracer<G>::Passage {
   void absorbed(const Rgb&) const noexcept {}
   [[nodiscard]] bool stop() const noexcept { return tracer.stop(); }
 
-  /// In a matched body one light is sampled at every collision, and its shadow ray traced where that is worth
-  /// it.
   void scattered(const Walker&) noexcept {
+    const bool known = tracer.options_.knows_clearance;
+    light_collision(known ? Real(tracer.geometry_.clearance(hit.object, walker.position)) : 0);
+  }
+
+  /// In a matched body one light is sampled at every collision, and its shadow ray traced where that is worth
+  /// it. The surface is at least `clearance` away.
+  void light_collision(Real clearance) noexcept {
     const std::size_t count = tracer.sampled_lights();
     if (material.boundary != Boundary::matched || count == 0) return;
     const std::size_t light =
@@ -114,8 +119,6 @@ struct PathTracer<G>::Passage {
     const auto phase = [&](const Vec3& d) {
       return eval_henyey_greenstein(material.medium.g, walker.direction, d);
     };
-    const Real clearance =
-        tracer.options_.knows_clearance ? tracer.geometry_.clearance(hit.object, walker.position) : Real(0);
     const Real carried = most_carried(walker.weight, material.medium.sigma_t, clearance);
     tracer.sample_direct(light, vertex, detail::CollisionWeighing{phase, path.shadows, carried}, u, sink);
   }

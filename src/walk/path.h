@@ -128,9 +128,9 @@ class PathTracer {
   template <Sink S>
   [[nodiscard]] WalkResult walk(Path& path, Random& random, S& sink) noexcept;
 
-  /// What a walk's collision adds, see WalkEvents::scattered.
+  /// What a walk's collision adds, see WalkEvents::scattered; the surface is at least `clearance` away.
   template <Sink S>
-  void collided(Path& path, Random& random, S& sink) noexcept;
+  void collided(Path& path, Real clearance, Random& random, S& sink) noexcept;
 
   /// Whether collided adds anything in bodies of a material.
   [[nodiscard]] bool lights_collisions(const TranslucentMaterial& material) const noexcept {

@@ -65,8 +65,8 @@ WalkResult PathTracer<G>::walk(Path& path, Random& random, S& sink) noexcept {
 
 template <SceneGeometry G>
 template <Sink S>
-void PathTracer<G>::collided(Path& path, Random& random, S& sink) noexcept {
-  Passage<S>{*this, path, random, sink}.scattered(path.walker);
+void PathTracer<G>::collided(Path& path, Real clearance, Random& random, S& sink) noexcept {
+  Passage<S>{*this, path, random, sink}.light_collision(clearance);
 }
 
 template <SceneGeometry G>

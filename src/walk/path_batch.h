@@ -105,10 +105,10 @@ class PathBatch {
       batch.settle(slot, batch.tracer_.resume(slot.path, walked, slot.random, slot.sink));
       return start(lane, walker, random);
     }
-    void collided(int lane, Walker& walker, Random& random) {
+    void collided(int lane, Real clearance, Walker& walker, Random& random) {
       Slot& slot = *slots[lane];
       slot.path.walker = walker;
-      batch.tracer_.collided(slot.path, random, slot.sink);
+      batch.tracer_.collided(slot.path, clearance, random, slot.sink);
     }
     [[nodiscard]] bool stop() const noexcept { return batch.interrupted_ || batch.tracer_.stop(); }
   };

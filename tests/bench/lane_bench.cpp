@@ -42,7 +42,7 @@ struct Endless {
     steps += walker.steps;
     return start(lane, walker, random);
   }
-  void collided(int, Walker&, Random&) const noexcept {}
+  void collided(int, Real, Walker&, Random&) const noexcept {}
   [[nodiscard]] bool stop() const noexcept { return false; }
 };
 

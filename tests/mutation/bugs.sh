@@ -101,4 +101,4 @@ mutant pixels_without_corners picture_outline_lanes render/empty_pixels.cpp \
 mutant light_found_not_shared picture_lit walk/passage.inl \
   'average(passed) * pdf + average(weight.ratio) * sampled' 'average(passed) * pdf'
 mutant no_light_at_collisions picture_fog_lanes walk/lane_walks.h \
-  'client_.collided(lane, walker, random);' ''
+  'client_.collided(lane, clearance(lane), walker, random);' ''

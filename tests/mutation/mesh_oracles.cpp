@@ -107,7 +107,7 @@ struct Walks {
     add(result, walker);
     return start(lane, walker, random);
   }
-  void collided(int lane, const Walker& walker, const Random&) { watch(lane, walker); }
+  void collided(int lane, Real, const Walker& walker, const Random&) { watch(lane, walker); }
   [[nodiscard]] bool stop() const noexcept { return false; }
 
   // Of scalar walks.

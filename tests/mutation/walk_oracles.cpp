@@ -214,7 +214,7 @@ struct ChromaticSlab {
     add(result, walker);
     return start(lane, walker, random);
   }
-  void collided(int, const Walker&, const Random&) const noexcept {}
+  void collided(int, Real, const Walker&, const Random&) const noexcept {}
   [[nodiscard]] bool stop() const noexcept { return false; }
 
   void add(const WalkResult& result, const Walker& walker) {

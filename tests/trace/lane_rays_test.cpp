@@ -32,7 +32,7 @@ struct Zeros {
     astray += glm::length(result.crossing.point - Vec3(1, 0, 0)) > Real(1e-5);
     return start(lane, walker, random);
   }
-  void collided(int, Walker&, Random&) {}
+  void collided(int, Real, Walker&, Random&) {}
   [[nodiscard]] bool stop() const { return false; }
 };
 
@@ -66,8 +66,27 @@ struct FromTheSurface {
     leaks += result.end == WalkEnd::leaked;
     return start(lane, walker, random);
   }
-  void collided(int, Walker&, Random&) {}
+  void collided(int, Real, Walker&, Random&) {}
   [[nodiscard]] bool stop() const { return false; }
+};
+
+// The same, told of their collisions.
+struct Colliding : FromTheSurface {
+  const MeshBody& body;
+  int collisions = 0;
+  int known = 0;
+  int too_far = 0;
+
+  Colliding(const Mesh& mesh, const DVec3& center, const MeshBody& in)
+      : FromTheSurface{mesh, center, 2000}, body(in) {}
+
+  void collided(int, Real clearance, const Walker& walker, Random&) {
+    ++collisions;
+    if (!(clearance > 0)) return;
+    ++known;
+    const auto nearest = body.nearest(walker.position, clearance);
+    too_far += nearest && nearest->distance < clearance;
+  }
 };
 
 }  // namespace
@@ -109,6 +128,24 @@ TEST_CASE("walks in lanes leave a closed mesh by its surface, all of them, with 
         CHECK(client.leaks == 0);
         CHECK(client.exits == kWalks);
       }
+    }
+  }
+}
+
+TEST_CASE("at a collision in a mesh the surface is as far away as it is told, at least") {
+  const Device device = make_device(1);
+  for (const MeshCase& c : mesh_cases()) {
+    CAPTURE(c.name);
+    DVec3 center;
+    const MeshBody body(device.get(), c.mesh, DMat3(1), center);
+    const EmptyBalls balls = make_empty_balls(body, 2);
+    const LaneModel model{{Rgb(30), Rgb(1), 0}, {.kind = SafeRegion::Kind::balls, .balls = &balls}, true};
+    for (const InstructionSet set : instruction_sets()) {
+      Colliding client(c.mesh, center, body);
+      REQUIRE(LaneWalks(set, body, model, client).run());
+      CHECK(client.too_far == 0);
+      CHECK(client.exits == 2000);
+      CHECK(client.known >= 0.9 * c.covered * client.collisions);
     }
   }
 }

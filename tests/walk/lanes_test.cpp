@@ -60,7 +60,7 @@ struct Client {
     results[number[lane]] = {result, walker};
     return start(lane, walker, random);
   }
-  void collided(int, Walker&, Random&) { ++collisions; }
+  void collided(int, Real, Walker&, Random&) { ++collisions; }
   [[nodiscard]] bool stop() const { return false; }
 };
 

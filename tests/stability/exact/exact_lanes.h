@@ -49,7 +49,7 @@ class ExactLanes {
     at(lane).record();
     return start(lane, walker, random);
   }
-  void collided(int, Walker&, Random&) const noexcept {}
+  void collided(int, Real, Walker&, Random&) const noexcept {}
   void tally(int lane, Real path, Real absorbed) {
     at(lane).tally(static_cast<double>(path), static_cast<double>(absorbed));
   }
