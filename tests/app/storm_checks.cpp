@@ -93,6 +93,8 @@ void Storm::calm_down() {
   previewer_.carry_out({CommandKind::budget_noise, 0, 0, {}, {}});
   previewer_.carry_out({CommandKind::budget_seconds, 0, 0, {}, {}});
   previewer_.carry_out({CommandKind::budget_spp, 8, 0, {}, {}});
+  // A picture of more samples, as a field or slider of the budget may have asked for, is begun anew.
+  if (previewer_.spp() > 8) previewer_.carry_out({CommandKind::threads, 2, 0, {}, {}});
   const Timer timer;
   while (timer.seconds() < 300) {
     frame();
