@@ -60,7 +60,7 @@ Image linear_picture(const std::string& path) {
 }
 
 void open_scene(PreviewTools& tools, const std::string& path) {
-  tools.state.change(SceneDocument::open(path));
+  tools.state.change(tools.state.history.now().open_another(path));
   tools.state.settle();
   tools.state.tell(MessageKind::note, "opened " + file_name(path));
 }

@@ -46,11 +46,13 @@ SceneDocument SceneDocument::from_text(const std::string& text, const std::strin
   return {std::move(state), std::move(cache)};
 }
 
-SceneDocument SceneDocument::reopened() const {
-  auto state = std::make_shared<DocumentState>(open_document(path(), *cache_));
-  (void)read_scene(state->table, path(), *cache_);
+SceneDocument SceneDocument::open_another(const std::string& path) const {
+  auto state = std::make_shared<DocumentState>(open_document(path, *cache_));
+  (void)read_scene(state->table, path, *cache_);
   return {std::move(state), cache_};
 }
+
+SceneDocument SceneDocument::reopened() const { return open_another(path()); }
 
 void SceneDocument::adopt(DocumentState&& state) {
   (void)read_scene(state.table, state.path, *cache_);

@@ -29,6 +29,9 @@ class SceneDocument {
   /// The same from the text of a scene file; names of files in it are relative to the folder of `path`.
   [[nodiscard]] static SceneDocument from_text(const std::string& text, const std::string& path);
 
+  /// Another scene, as open reads it; of what both name there is one object.
+  [[nodiscard]] SceneDocument open_another(const std::string& path) const;
+
   /// The scene file, or the studio about the bare mesh file, as it is on disk now: no edits, but what copies
   /// share. Errors: as open.
   [[nodiscard]] SceneDocument reopened() const;

@@ -19,6 +19,7 @@ using Folder = TemporaryFolder;
 inline const std::string kScenes = std::string(MEANDER_SOURCE_DIR) + "/scenes/";
 inline const std::string kKnot = kScenes + "wax_knot.toml";
 inline const std::string kSoap = kScenes + "soap.toml";
+inline const std::string kJade = kScenes + "jade_knot.toml";
 inline const std::string kSoapMesh = kScenes + "soap.ply";
 
 // A closed tetrahedron of this size whose lowest corners lie at y = 0.

@@ -73,6 +73,7 @@ TEST_CASE("what did not change is the same object from scene to scene, also betw
   copy.apply("material.wax.g=0.5");
   CHECK(mesh_of(before.scene, "knot") == mesh_of(copy.scene().scene, "knot"));
   CHECK(mesh_of(before.scene, "knot") == mesh_of(knot.reopened().scene().scene, "knot"));
+  CHECK(mesh_of(before.scene, "knot") == mesh_of(copy.open_another(kJade).scene().scene, "knot"));
   SceneDocument soap = SceneDocument::open(kSoap);
   const SceneFile first = soap.scene();
   soap.set_environment_sky("softbox");
