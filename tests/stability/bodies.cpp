@@ -117,8 +117,10 @@ Mesh make_hollow_cube(double thickness) {
 }
 
 Mesh doubled(Mesh mesh) {
-  const std::vector<Triangle> once = mesh.triangles;
-  mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
+  for (std::vector<Triangle>* triangles : {&mesh.triangles, &mesh.normal_triangles}) {
+    const std::vector<Triangle> once = *triangles;
+    triangles->insert(triangles->end(), once.begin(), once.end());
+  }
   return mesh;
 }
 
@@ -137,7 +139,8 @@ Mesh shifted(Mesh mesh, const DVec3& by) {
 }
 
 Mesh without_triangle(Mesh mesh, std::size_t number) {
-  mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(number));
+  for (std::vector<Triangle>* triangles : {&mesh.triangles, &mesh.normal_triangles})
+    if (!triangles->empty()) triangles->erase(triangles->begin() + static_cast<std::ptrdiff_t>(number));
   return mesh;
 }
 
