@@ -90,6 +90,7 @@ void Storm::calm_down() {
   for (int button = 0; button < 3; ++button) send(InputKind::button, 0, 0, button, false);
   send(InputKind::focus, 0, 0, 0, false);
   resize(320, 240);
+  for (int i = 0; i < 10; ++i) frame();  // what was typed or dragged last may be the budget
   previewer_.carry_out({CommandKind::budget_noise, 0, 0, {}, {}});
   previewer_.carry_out({CommandKind::budget_seconds, 0, 0, {}, {}});
   previewer_.carry_out({CommandKind::budget_spp, 8, 0, {}, {}});
