@@ -51,7 +51,7 @@ class LaneWalks {
       lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);
       Walker walker;
       Random random({1, 0, 0, 0});
-      if (client_.start(lane, walker, random)) put(lane, walker, random, LaneDue::flight);
+      if (client_.start(lane, walker, random)) set_out(lane, walker, random);
     }
     give_balls();
     while (in_use_ > 0) {
@@ -82,12 +82,16 @@ class LaneWalks {
     int hero = 0;
   };
 
-  void put(int lane, const Walker& walker, const Random& random, LaneDue due) noexcept {
-    if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::empty)) ++in_use_;
+  void put(int lane, const Walker& walker, const Random& random) noexcept {
     put_walker(lanes_, lane, walker, random, model_.medium.sigma_t[walker.weight.hero]);
-    lanes_.due[lane] = static_cast<std::uint32_t>(due);
-    fresh_[fresh_count_++] = static_cast<std::uint32_t>(lane);
     put_[lane] = {walker.weight.ratio, walker.weight.since, walker.weight.order, walker.weight.hero};
+  }
+
+  // A new walk, or one that was sent back inside.
+  void set_out(int lane, const Walker& walker, const Random& random) noexcept {
+    if (lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::empty)) ++in_use_;
+    put(lane, walker, random);
+    fresh_[fresh_count_++] = static_cast<std::uint32_t>(lane);
   }
 
   // Collisions want the best ball that is known about their place, not the one that they came in.
@@ -104,10 +108,9 @@ class LaneWalks {
   // After a collision: the lane keeps its ball, which the walk is in still.
   void go_on(int lane, const Walker& walker, const Random& random) noexcept {
     const float radius2 = lanes_.ball_radius2[lane];
-    put_walker(lanes_, lane, walker, random, model_.medium.sigma_t[walker.weight.hero]);
+    put(lane, walker, random);
     lanes_.ball_radius2[lane] = radius2;
     lanes_.due[lane] = static_cast<std::uint32_t>(LaneDue::scattering);
-    put_[lane] = {walker.weight.ratio, walker.weight.since, walker.weight.order, walker.weight.hero};
   }
 
   // How far away from a lane's walk the surface is, at least.
@@ -221,7 +224,7 @@ class LaneWalks {
 
   void end(int lane, const WalkResult& result, Walker& walker, Random& random) {
     if (client_.end(lane, result, walker, random)) {
-      put(lane, walker, random, LaneDue::flight);
+      set_out(lane, walker, random);
       return;
     }
     lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);

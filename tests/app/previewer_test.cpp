@@ -21,6 +21,54 @@ void await_sample(Previewer& previewer) {
   REQUIRE(previewer.spp() == 1);
 }
 
+// A previewer that is drawn 1280 x 720, and what is done to it between frames, as often as none.
+struct Desktop {
+  Offscreen context{1280, 720};
+  Previewer previewer{context.functions(), Desk::small(kKnot), options(), 1};
+
+  static PreviewOptions options() {
+    PreviewOptions options;
+    options.settings.threads = 1;
+    options.settings.budget.spp = 1;
+    return options;
+  }
+  void draw() {
+    FrameShape shape;
+    shape.pixels_wide = 1280;
+    shape.pixels_high = 720;
+    for (int frame = 0; frame < 6; ++frame) previewer.draw(shape);
+  }
+  void send(InputKind kind, double x, double y, int code = 0, bool down = false) {
+    InputEvent event;
+    event.kind = kind;
+    event.x = x;
+    event.y = y;
+    event.code = code;
+    event.down = down;
+    event.modifiers.control = control;
+    previewer.feed(event);
+  }
+  void drag_from(double x, double y) {
+    send(InputKind::move, x, y);
+    send(InputKind::button, x, y, 0, true);
+    send(InputKind::move, x + 60, y);
+    send(InputKind::button, x + 60, y);
+  }
+  void control_click(double x, double y) {
+    control = true;
+    send(InputKind::move, x, y);
+    send(InputKind::button, x, y, 0, true);
+    send(InputKind::button, x, y);
+    control = false;
+  }
+  void press(int code) {
+    send(InputKind::key, 0, 0, code, true);
+    send(InputKind::key, 0, 0, code);
+  }
+
+  bool control = false;
+};
+
 }  // namespace
 
 TEST_CASE("an edit before the first frame is in the first picture") {
@@ -91,103 +139,50 @@ TEST_CASE("the slider of the threads at its lower end means all of them") {
 }
 
 TEST_CASE("a press is the picture's or the interface's by where it was made, however slow the frames are") {
-  const Offscreen context(1280, 720);
-  PreviewOptions options;
-  options.settings.threads = 1;
-  options.settings.budget.spp = 1;
-  Previewer previewer(context.functions(), Desk::small(kKnot), options, 1);
-  FrameShape shape;
-  shape.pixels_wide = 1280;
-  shape.pixels_high = 720;
-  const auto send = [&](InputKind kind, double x, double y, bool down = false) {
-    InputEvent event;
-    event.kind = kind;
-    event.x = x;
-    event.y = y;
-    event.down = down;
-    previewer.feed(event);
-  };
-  const auto drag_from = [&](double x, double y) {
-    send(InputKind::move, x, y);
-    send(InputKind::button, x, y, true);
-    send(InputKind::move, x + 60, y);
-    send(InputKind::button, x + 60, y, false);
-  };
-  const auto draw = [&] {
-    for (int frame = 0; frame < 6; ++frame) previewer.draw(shape);
-  };
-  const auto edited = [&] { return previewer.title().starts_with('*'); };
-  draw();
-  send(InputKind::move, 600, 708);  // the status line
-  draw();
-  drag_from(450, 330);
+  Desktop desktop;
+  const auto edited = [&] { return desktop.previewer.title().starts_with('*'); };
+  desktop.draw();
+  desktop.send(InputKind::move, 600, 708);  // the status line
+  desktop.draw();
+  desktop.drag_from(450, 330);
   CHECK(edited());
-  draw();
-  previewer.carry_out({CommandKind::undo, 0, 0, {}, {}});
+  desktop.draw();
+  desktop.previewer.carry_out({CommandKind::undo, 0, 0, {}, {}});
   CHECK_FALSE(edited());
-  previewer.carry_out({CommandKind::help, 0, 0, {}, {}});
-  draw();
-  drag_from(640, 360);  // over the picture, were it not for the help
+  desktop.previewer.carry_out({CommandKind::help, 0, 0, {}, {}});
+  desktop.draw();
+  desktop.drag_from(640, 360);  // over the picture, were it not for the help
   CHECK_FALSE(edited());
 }
 
 TEST_CASE("a key in the frame of a click is the field's that was clicked, a shortcut where there is none") {
-  const Offscreen context(1280, 720);
-  PreviewOptions options;
-  options.settings.threads = 1;
-  options.settings.budget.spp = 1;
-  Previewer previewer(context.functions(), Desk::small(kKnot), options, 1);
-  FrameShape shape;
-  shape.pixels_wide = 1280;
-  shape.pixels_high = 720;
-  const Modifiers control{false, true, false, false};
-  InputEvent at;
-  const auto send = [&](InputKind kind, int code, bool down, const Modifiers& modifiers) {
-    at.kind = kind;
-    at.code = code;
-    at.down = down;
-    at.modifiers = modifiers;
-    previewer.feed(at);
-  };
-  const auto draw = [&] {
-    for (int frame = 0; frame < 4; ++frame) previewer.draw(shape);
-  };
-  const auto click = [&] {
-    send(InputKind::move, 0, false, control);
-    send(InputKind::button, 0, true, control);
-    send(InputKind::button, 0, false, control);
-  };
-  const auto press = [&](int code) {
-    send(InputKind::key, code, true, {});
-    send(InputKind::key, code, false, {});
-  };
-  const auto selecting = [&] { return previewer.state().look.selecting; };
-  draw();
-  at.x = 1150;
-  for (at.y = 60; previewer.pointer_shape() != PointerShape::text; at.y += 8) {
-    REQUIRE(at.y < 700);
-    click();
-    draw();
+  Desktop desktop;
+  const auto typing = [&] { return desktop.previewer.pointer_shape() == PointerShape::text; };
+  const auto selecting = [&] { return desktop.previewer.state().look.selecting; };
+  desktop.draw();
+  double field = 52;  // its height in the side panel
+  while (!typing()) {
+    field += 8;
+    REQUIRE(field < 700);
+    desktop.control_click(1150, field);
+    desktop.draw();
   }
-  at.y -= 8;
-  press(key::kEscape);
-  draw();
-  click();
-  press('X');
-  draw();
+  desktop.press(key::kEscape);
+  desktop.draw();
+  desktop.control_click(1150, field);
+  desktop.press('X');
+  desktop.draw();
   CHECK_FALSE(selecting());
-  CHECK(previewer.pointer_shape() == PointerShape::text);
-  press(key::kEscape);
-  draw();
-  CHECK_FALSE(previewer.closing());
-  at.x = 400;
-  at.y = 300;
-  click();
-  press('X');
+  CHECK(typing());
+  desktop.press(key::kEscape);
+  desktop.draw();
+  CHECK_FALSE(desktop.previewer.closing());
+  desktop.control_click(400, 300);  // the picture
+  desktop.press('X');
   CHECK_FALSE(selecting());  // not known yet whose it is
-  draw();
+  desktop.draw();
   CHECK(selecting());
-  press('X');
+  desktop.press('X');
   CHECK_FALSE(selecting());
 }
 

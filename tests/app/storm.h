@@ -68,6 +68,8 @@ class Storm {
   void step();
   void frame();
   void await_picture();
+  /// Frames in which what was typed, pressed or dragged last does what it does.
+  void settle();
   void calm_down();
   void resize(int width, int height);
   void carry_out(const Command& command) { previewer_.carry_out(command); }

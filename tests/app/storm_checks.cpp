@@ -85,12 +85,16 @@ void Storm::frame() {
   if (previewer_.pictures().live()) check_picture();
 }
 
+void Storm::settle() {
+  for (int i = 0; i < 10; ++i) frame();
+}
+
 // Lets go of everything and waits for the picture of all that was asked.
 void Storm::calm_down() {
   for (int button = 0; button < 3; ++button) send(InputKind::button, 0, 0, button, false);
   send(InputKind::focus, 0, 0, 0, false);
   resize(320, 240);
-  for (int i = 0; i < 10; ++i) frame();  // what was typed or dragged last may be the budget
+  settle();  // the last event may be one of the budget's
   previewer_.carry_out({CommandKind::budget_noise, 0, 0, {}, {}});
   previewer_.carry_out({CommandKind::budget_seconds, 0, 0, {}, {}});
   previewer_.carry_out({CommandKind::budget_spp, 8, 0, {}, {}});

@@ -17,7 +17,6 @@ namespace meander {
 namespace {
 
 constexpr int kLeastSeconds = 10;  // of processor time, all threads together
-constexpr int kSettled = 10;       // frames after which a key that was pressed has done what it does
 constexpr double kAlike = 0.75;    // of the film's pixels: messages and handles lie over some
 
 void write_at_once(const std::string& path, const std::string& text) {
@@ -97,7 +96,7 @@ void Soak::rewrite_scene() {
   CAPTURE(path);
   CAPTURE(kind);
   if (kind == 1) {
-    for (int i = 0; i < kSettled; ++i) storm_.frame();
+    storm_.settle();
     const std::string before = state().history.now().text();
     write_at_once(path, "[camera\n" + text);
     const auto told = [&] {

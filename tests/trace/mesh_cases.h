@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "math/random.h"
 #include "scene/mesh.h"
+#include "walk/random_walk.h"
 
 namespace meander {
 
@@ -19,14 +21,11 @@ struct MeshCase {
 /// A closed box about the origin.
 [[nodiscard]] Mesh make_box_mesh(const DVec3& half);
 
-/// Triangles of very different sizes that meet at sharp edges: `sides` needles about a long axis.
-[[nodiscard]] Mesh make_spindle(int sides);
-
 /// Smooth and coarse ones, thin walls, needles, sharp edges, grooves, many triangles at a vertex, walls at
-/// one place. With a thousand `sides` a spindle's tips are so sharp that where a ray leaves them is rounding.
+/// one place. The tips of "needles" are so sharp that where a ray leaves them is rounding.
 [[nodiscard]] std::vector<MeshCase> mesh_cases();
 
-/// The case of that name.
-[[nodiscard]] MeshCase mesh_case(const std::string& name);
+/// Sends a walk inward from the middle of any triangle of a mesh whose body is centred on `center`.
+void enter_anywhere(const Mesh& mesh, const DVec3& center, Walker& walker, Random& random);
 
 }  // namespace meander
