@@ -53,8 +53,8 @@ struct BlockLanes {
     return start(lane, walker, random);
   }
   void collided(int, Real, Walker&, Random&) const noexcept {}
-  void tally(int lane, Real path, Real absorbed) noexcept {
-    walks[static_cast<std::size_t>(lane)].tally(double{path}, double{absorbed});
+  void tally(int lane, double path, double absorbed) noexcept {
+    walks[static_cast<std::size_t>(lane)].tally(path, absorbed);
   }
   [[nodiscard]] bool stop() const noexcept { return stopped.load(std::memory_order_relaxed); }
 };

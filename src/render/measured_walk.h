@@ -169,7 +169,7 @@ class MeasuredWalk {
     if (weight == 0) return;
     const bool back = std::holds_alternative<MeasuredSphere>(job_.shape) || exit.normal.z > 0;
     const bool direct = walker_.weight.order == 0;
-    const double path = double{walker_.weight.length};
+    const double path = walker_.weight.length;
     Tallied& t = tallied_;
     (back ? t.reflected : t.transmitted) += weight;
     if (direct) {

@@ -57,6 +57,7 @@ class LaneWalks {
     while (in_use_ > 0) {
       if (client_.stop()) return false;
       advance_lanes(set_, model_, lanes_, kLanes, kLanes - in_use_ + std::min(kRestingLanes, in_use_));
+      if (++rounds_ % kGatherInterval == 0) gather();
       find_resting(set_, model_, lanes_, resting_);
       give_balls_where_collided();
       if constexpr (kTogether)
@@ -72,7 +73,7 @@ class LaneWalks {
   [[nodiscard]] const LaneCounters& counters() const noexcept { return counters_; }
 
  private:
-  static constexpr bool kTallies = requires(C & client) { client.tally(0, Real(0), Real(0)); };
+  static constexpr bool kTallies = requires(C & client) { client.tally(0, 0.0, 0.0); };
 
   // Of a walk's weight, as it was put into its lane.
   struct Put {
@@ -82,7 +83,28 @@ class LaneWalks {
     int hero = 0;
   };
 
+  // Rounds between two gatherings, none of which makes more than kStopInterval steps: 16384 summands at most
+  // are summed up in single precision.
+  static constexpr int kGatherInterval = 16;
+
+  // What a lane's walk has flown and left behind before the lane's own sums began.
+  struct Gathered {
+    double length = 0;
+    double path = 0;
+    double absorbed = 0;
+  };
+
+  void gather() noexcept {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      Gathered& sum = gathered_[lane];
+      sum.length += double{std::exchange(lanes_.length[lane], 0.0f)};
+      sum.path += double{std::exchange(lanes_.path[lane], 0.0f)};
+      sum.absorbed += double{std::exchange(lanes_.absorbed[lane], 0.0f)};
+    }
+  }
+
   void put(int lane, const Walker& walker, const Random& random) noexcept {
+    gathered_[lane].length = walker.weight.length;
     put_walker(lanes_, lane, walker, random, model_.medium.sigma_t[walker.weight.hero]);
     put_[lane] = {walker.weight.ratio, walker.weight.since, walker.weight.order, walker.weight.hero};
   }
@@ -125,6 +147,7 @@ class LaneWalks {
   // then it stands.
   [[nodiscard]] Walker walker_in(int lane) const noexcept {
     Walker walker = walker_of(lanes_, lane);
+    walker.weight.length += gathered_[lane].length;
     const Put& put = put_[lane];
     walker.weight.hero = put.hero;
     if (walker.weight.order == put.order) {
@@ -197,7 +220,9 @@ class LaneWalks {
       }
     }
     if constexpr (kTallies) {
-      client_.tally(lane, Real(lanes_.path[lane]), Real(lanes_.absorbed[lane]));
+      Gathered& sum = gathered_[lane];
+      client_.tally(lane, sum.path + double{lanes_.path[lane]}, sum.absorbed + double{lanes_.absorbed[lane]});
+      sum.path = sum.absorbed = 0;
       lanes_.path[lane] = lanes_.absorbed[lane] = 0;
     }
     Walker walker = walker_in(lane);
@@ -216,7 +241,7 @@ class LaneWalks {
     const Crossing& crossing = result.crossing;
     const bool exits = crossing.kind == CrossingKind::exit;
     if constexpr (kTallies)
-      if (exits) client_.tally(lane, walker.weight.carried().x * crossing.distance, 0);
+      if (exits) client_.tally(lane, double{walker.weight.carried().x * crossing.distance}, 0.0);
     walker.weight.pass(model_.medium, crossing.distance);
     if (exits) walker.position = crossing.point;
     result.end = exits ? WalkEnd::exited : WalkEnd::leaked;
@@ -237,6 +262,8 @@ class LaneWalks {
   C& client_;
   Lanes lanes_{};
   Put put_[kLanes] = {};
+  Gathered gathered_[kLanes];
+  std::uint32_t rounds_ = 0;
   int in_use_ = 0;
   static auto begun_kind() {
     if constexpr (kTogether)

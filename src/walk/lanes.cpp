@@ -22,7 +22,7 @@ void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& rand
   put(lanes.ratio, lane, ratio / largest(ratio));
   lanes.ball_radius2[lane] = -1;
   lanes.lift[lane] = 1;
-  lanes.length[lane] = static_cast<float>(walker.weight.length);
+  lanes.length[lane] = 0;
   lanes.sigma[lane] = static_cast<float>(sigma);
   lanes.one_minus_mu[lane] = static_cast<float>(walker.last.one_minus_mu);
   lanes.one_plus_mu[lane] = static_cast<float>(walker.last.one_plus_mu);

@@ -45,9 +45,10 @@ struct alignas(64) Lanes {
   Row albedo[3];
   Row ratio[3];
   Row lift;
+  // Since the walk was put, or since they were last gathered: single precision holds no long sums.
   Row length;
   Row path;      // weight times distance, and
-  Row absorbed;  // weight left behind, of the first channel, since the lane last rested
+  Row absorbed;  // weight left behind, of the first channel
   Row distance;
   Row sigma;         // of the channel that samples the distances
   Row one_minus_mu;  // of the deflection that made the direction, and
@@ -66,7 +67,8 @@ void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& rand
 /// Lets a lane's walk collide at a point after a flight, from which on it runs, without a ball.
 void land(Lanes& lanes, int lane, const Vec3& point, Real distance) noexcept;
 
-/// The walk of a lane (but for its hero channel) and the state of its generator, for scalar code.
+/// The walk of a lane (but for its hero channel, and with the length that `length` holds) and the state of
+/// its generator, for scalar code.
 [[nodiscard]] Walker walker_of(const Lanes& lanes, int lane) noexcept;
 [[nodiscard]] Random random_of(const Lanes& lanes, int lane) noexcept;
 

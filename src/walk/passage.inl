@@ -9,7 +9,7 @@ namespace detail {
 /// What a path hands over for radiance found by its own ray, without competition from light sampling.
 [[nodiscard]] inline Contribution make_contribution(const PathWeight& weight, const Rgb& unweighted,
                                                     int group) noexcept {
-  return {group, weight.order, unweighted, weight.albedo, weight.length};
+  return {group, weight.order, unweighted, weight.albedo, static_cast<Real>(weight.length)};
 }
 
 /// The weight of light that a ray has found, without throughput: the balance heuristic, over both ways and
@@ -148,11 +148,16 @@ struct PathTracer<G>::Passage {
   // moved beyond what is looked for behind it.
   [[nodiscard]] bool stays_on_spot(const Crossing& crossing) noexcept {
     constexpr int kMostStays = 16;
+    constexpr Real kSpot = 64;  // how wide a spot is; the rims of sheets that lie in a stack are many
     if (!tracer.geometry_.traces_rays(hit.object)) return false;
     const Real here = tracer.geometry_.offset(hit.object, crossing.point);
     if (crossing.distance > here) {
       path.stays = 0;
       return false;
+    }
+    if (path.stays == 0 || glm::distance(crossing.point, path.spot) > kSpot * here) {
+      path.stays = 0;
+      path.spot = crossing.point;
     }
     const bool stuck = ++path.stays >= kMostStays;
     if (!stuck && !meets_neighbour(crossing, here)) return false;

@@ -85,6 +85,7 @@ struct Path {
   Vec3 set_out{0};                  // where on the surface the walk began, or was last mirrored
   Vec3 set_out_normal{0};           // outward, there; 0 once another wall was found at the same place
   int stays = 0;                    // crossings on one spot, since the path last got anywhere
+  Vec3 spot{0};                     // where the first of them was
   std::uint64_t walks = 0;          // that have ended; a path of many short ones asks for the stop among them
 };
 

@@ -20,7 +20,7 @@ struct PathWeight {
   Rgb since{1};             // transmittance from the last vertex to here, per channel
   int hero = 0;             // channel that samples the distances
   std::uint32_t order = 0;  // number of scatterings in media
-  Real length = 0;          // path length inside media, scene units
+  double length = 0;        // path length inside media, scene units
 
   [[nodiscard]] Rgb carried() const noexcept { return throughput * albedo; }
 
@@ -32,13 +32,13 @@ struct PathWeight {
 
   /// Flies a distance through a medium without colliding.
   void pass(const Medium& medium, Real distance) noexcept {
-    length += distance;
+    length += double{distance};
     for (int c = 0; c < 3; ++c) since[c] *= transmittance(medium.sigma_t[c], distance);
   }
 
   /// Flies a distance and collides there: a new vertex.
   void collide(const Medium& medium, Real distance) noexcept {
-    length += distance;
+    length += double{distance};
     if (is_grey(medium.sigma_t)) {
       vertex();
       return;

@@ -64,6 +64,30 @@ TEST_CASE("the mean path in a sphere without absorption is 4/3 of its optical ra
   CHECK(m.reflectance.mean == doctest::Approx(1));
 }
 
+TEST_CASE("a walk of a million steps loses none of its length, whoever walks it") {
+  MeasureJob job;
+  job.shape = MeasuredSlab{1e5};
+  job.albedo = 1;
+  job.walks = 200;
+  job.threads = 1;
+  job.seed = 1;
+  job.walk = WalkCode::scalar;
+  const Measurement scalar = measure(job, kRun);
+  CHECK(scalar.steps > 1'000'000);
+  CHECK(scalar.mean_path_length.mean * 200 ==
+        doctest::Approx(static_cast<double>(scalar.steps)).epsilon(0.01));
+  job.walk = WalkCode::batch;
+  for (const InstructionSet set : instruction_sets()) {
+    CAPTURE(name_of(set));
+    job.instruction_set = set;
+    const Measurement lanes = measure(job, kRun);
+    CHECK(lanes.steps == scalar.steps);
+    CHECK(lanes.mean_path_length.mean == doctest::Approx(scalar.mean_path_length.mean).epsilon(2e-6));
+    CHECK(lanes.resolved.mean_path_reflected.value() ==
+          doctest::Approx(scalar.resolved.mean_path_reflected.value()).epsilon(2e-6));
+  }
+}
+
 TEST_CASE("an interrupted measurement keeps whole blocks only") {
   const std::atomic<bool> stop{true};
   MeasureJob job;

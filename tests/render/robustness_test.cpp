@@ -204,6 +204,32 @@ TEST_CASE("a mesh renders the same at any scale") {
   for (const double mean : means) CHECK(mean == doctest::Approx(means[2]).epsilon(3e-3));
 }
 
+TEST_CASE("a path that meets the rims of fifty thin sheets in a stack passes them all") {
+  Mesh stack;
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    const double z = 0.02 * i;
+    for (const DVec3& p : {DVec3(-1, -1, z), DVec3(1, -1, z), DVec3(0, 1, z), DVec3(0, 0, z + 1e-4)})
+      stack.positions.push_back(p);
+    const std::uint32_t a = 4 * i;
+    stack.triangles.insert(stack.triangles.end(),
+                           {{a, a + 2, a + 1}, {a, a + 1, a + 3}, {a + 1, a + 2, a + 3}, {a + 2, a, a + 3}});
+  }
+  Scene scene;
+  scene.camera = {{0, 1, 4}, {0, 0, 0}, {0, 1, 0}, 45, {}};
+  scene.film = {48, 48};
+  scene.environment.radiance = Rgb(1);
+  scene.materials.push_back(white(Boundary::matched, Rgb(10)));
+  scene.objects.push_back({"stack", std::make_shared<const Mesh>(std::move(stack)), 0, {}});
+  Job job = make_job(std::move(scene), 2);
+  for (const WalkCode walk : {WalkCode::batch, WalkCode::scalar}) {
+    job.walk = walk;
+    const Rendering r = render_spp(job, 16);
+    CHECK(r.counters.walks > 300000);
+    CHECK(r.counters.leaked_walks == 0);
+    for (const Pixel& pixel : r.film.pixels) CHECK(pixel.mean[0] == doctest::Approx(1).epsilon(2e-5));
+  }
+}
+
 TEST_CASE("light lost through a hole of a white chromatic body is neither gained nor lost") {
   Mesh open = *cube_mesh(1);
   open.triangles.resize(10);

@@ -50,8 +50,8 @@ class ExactLanes {
     return start(lane, walker, random);
   }
   void collided(int, Real, Walker&, Random&) const noexcept {}
-  void tally(int lane, Real path, Real absorbed) {
-    at(lane).tally(static_cast<double>(path), static_cast<double>(absorbed));
+  void tally(int lane, double path, double absorbed) {
+    at(lane).tally(path, absorbed);
   }
   [[nodiscard]] bool stop() const noexcept { return false; }
 
