@@ -22,6 +22,10 @@ constexpr Real kPlaneMargin = 0x1p-18f;  // of the scale: how much deeper than t
 constexpr Real kLeastFacing = Real(0.5);
 constexpr Real kNearlyAll = Real(0.996);
 
+// Packets looked into for one block, about, before it is given up: several times what the dearest block of a
+// smooth mesh takes, 312 000 with 100 000 triangles and 873 000 with 1 280 000.
+std::uint64_t dearest_block(const MeshBody& body) { return 1'000'000 + 16 * body.packet_count(); }
+
 // A cube of cells, and the balls of the cubes that it is a part of.
 struct Cube {
   glm::ivec3 corner{0};
@@ -39,22 +43,28 @@ struct Fill {
 
 struct Filling {
   std::vector<Fill> fills;
-  std::vector<Cube> left;  // cubes of kBlock that have not been looked into
+  std::vector<Cube> left;    // cubes of kBlock that have not been looked into
+  std::uint64_t looked = 0;  // packets, for the nearest points
 };
 
 class Filler {
  public:
-  Filler(const MeshBody& body, const EmptyBalls& grid)
-      : body_(body), low_(grid.low), cell_(1 / Real(grid.cells_per_unit)) {}
+  Filler(const MeshBody& body, const EmptyBalls& grid, const std::atomic<bool>& stop)
+      : body_(body),
+        low_(grid.low),
+        cell_(1 / Real(grid.cells_per_unit)),
+        dearest_(dearest_block(body)),
+        stop_(stop) {}
 
   // Looks into a cube down to cubes of `stop` cells, which are left, or to single cells.
   void divide(const Cube& cube, int stop, Filling& filling) const {
+    if (filling.looked > dearest_ || stop_.load(std::memory_order_relaxed)) return;
     for (int i = 0; i < cube.outers; ++i)
       if (covers(cube.outer[static_cast<std::size_t>(i)], cube))
         return filling.fills.push_back({cube.corner, cube.side, cube.outer[static_cast<std::size_t>(i)], {}});
     if (cube.side == stop) return filling.left.push_back(cube);
     const Real side = cell_ * Real(cube.side);
-    const Found found = find(middle_of(cube), side);
+    const Found found = find(middle_of(cube), side, filling.looked);
     if (found.outside) return;
     if (found.ball.radius2 > 0 && covers(found.ball, cube))
       return filling.fills.push_back({cube.corner, cube.side, found.ball, {}});
@@ -87,8 +97,8 @@ class Filler {
     return glm::dot(farthest, farthest) <= Real(ball.radius2);
   }
 
-  [[nodiscard]] Found find(const Vec3& place, Real side) const {
-    const auto nearest = body_.nearest(place, std::numeric_limits<Real>::infinity());
+  [[nodiscard]] Found find(const Vec3& place, Real side, std::uint64_t& looked) const {
+    const auto nearest = body_.nearest(place, std::numeric_limits<Real>::infinity(), looked);
     if (!nearest) return {{}, true};
     Vec3 inward = place - nearest->point;
     const bool inside = glm::dot(inward, nearest->normal) < 0;
@@ -96,14 +106,15 @@ class Filler {
     if (!inside && length > side * std::sqrt(Real(3)) / 2) return {{}, true};
     if (inside && length > kReach * side) return {make_ball(place, nearest->distance)};
     inward = inside && length > body_.scale() * kMargin ? inward / length : -nearest->normal;
-    return {touching_ball(nearest->point, inward, kReach * side)};
+    return {touching_ball(nearest->point, inward, kReach * side, looked)};
   }
 
   // The largest ball up to a radius, about, that touches the surface at `contact` (Ma, Bae, Choi 2012).
-  [[nodiscard]] EmptyBall touching_ball(const Vec3& contact, const Vec3& inward, Real radius) const {
+  [[nodiscard]] EmptyBall touching_ball(const Vec3& contact, const Vec3& inward, Real radius,
+                                        std::uint64_t& looked) const {
     for (int i = 0; i < kShrinkings; ++i) {
       const Vec3 center = contact + radius * inward;
-      const auto nearest = body_.nearest(center, kSettled * radius);
+      const auto nearest = body_.nearest(center, kSettled * radius, looked);
       if (!nearest) return make_ball(center, kSettled * radius);
       const Vec3 chord = nearest->point - contact;
       const Real along = glm::dot(chord, inward);
@@ -138,6 +149,8 @@ class Filler {
   const MeshBody& body_;
   Vec3 low_;
   Real cell_;
+  std::uint64_t dearest_;
+  const std::atomic<bool>& stop_;
 };
 
 void put(const Fill& fill, EmptyBalls& grid) {
@@ -153,7 +166,8 @@ void put(const Fill& fill, EmptyBalls& grid) {
 
 }  // namespace
 
-EmptyBalls make_empty_balls(const MeshBody& body, int threads, int cells) {
+std::optional<EmptyBalls> make_empty_balls(const MeshBody& body, int threads, int cells,
+                                           const std::atomic<bool>& stop) {
   EmptyBalls grid;
   const glm::vec3 half(body.half_size());
   grid.cells_per_unit = static_cast<float>(cells) / (2 * static_cast<float>(largest(body.half_size())));
@@ -161,7 +175,7 @@ EmptyBalls make_empty_balls(const MeshBody& body, int threads, int cells) {
   grid.low = glm::vec3(grid.size) * (-0.5f / grid.cells_per_unit);
   grid.cells.assign(static_cast<std::size_t>(grid.size.x) * grid.size.y * grid.size.z, 0);
 
-  const Filler filler(body, grid);
+  const Filler filler(body, grid, stop);
   Filling coarse;
   Cube whole;
   whole.side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(cells, kBlock))));
@@ -172,10 +186,16 @@ EmptyBalls make_empty_balls(const MeshBody& body, int threads, int cells) {
     tbb::parallel_for(std::size_t(0), fine.size(),
                       [&](std::size_t i) { filler.divide(coarse.left[i], 0, fine[i]); });
   });
+  if (stop) return std::nullopt;
   for (const Fill& fill : coarse.fills) put(fill, grid);
   for (const Filling& filling : fine)
     for (const Fill& fill : filling.fills) put(fill, grid);
   return grid;
+}
+
+EmptyBalls make_empty_balls(const MeshBody& body, int threads, int cells) {
+  const std::atomic<bool> never{false};
+  return *make_empty_balls(body, threads, cells, never);
 }
 
 }  // namespace meander

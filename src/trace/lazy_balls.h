@@ -16,8 +16,8 @@ class LazyBalls {
 
   [[nodiscard]] bool ready() const noexcept { return made_.load(std::memory_order_acquire) != nullptr; }
 
-  /// Makes them, on at most `threads` threads; false when `stop` came first. Must not be called from within a
-  /// parallel loop. Errors: std::bad_alloc.
+  /// Makes them, on at most `threads` threads; false when `stop` came before they were made. Must not be
+  /// called from within a parallel loop. Errors: std::bad_alloc.
   [[nodiscard]] bool make(int threads, const std::atomic<bool>& stop) const;
 
   /// They must be ready.

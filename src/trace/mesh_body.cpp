@@ -167,9 +167,10 @@ std::optional<MeshHit> MeshBody::hit_by(const Vec3& o, const Vec3& d, Real dista
                  shading_normal(met.triangle, met.u, met.v, normal)};
 }
 
-std::optional<Nearest> MeshBody::nearest(const Vec3& p, Real limit) const noexcept {
+std::optional<Nearest> MeshBody::nearest(const Vec3& p, Real limit, std::uint64_t& looked) const noexcept {
   const NearestPoint found =
       find_nearest(packets_, glm::vec3(p * inverse_scale_), static_cast<float>(limit * inverse_scale_));
+  looked += found.looked;
   if (found.triangle == NearestPoint::kNoTriangle) return std::nullopt;
   const Triangle& t = triangles_[found.triangle];
   const Vec3 a(positions_[t[0]]);

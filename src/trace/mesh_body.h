@@ -77,8 +77,13 @@ class MeshBody {
   [[nodiscard]] std::optional<MeshHit> closest(const Vec3& o, const Vec3& d, Real distance) const noexcept;
 
   /// Of all points of the surface within `limit` the nearest to `p`; its distance is short of the true one,
-  /// or beyond it, by at most 2^-20 of the scale.
-  [[nodiscard]] std::optional<Nearest> nearest(const Vec3& p, Real limit) const noexcept;
+  /// or beyond it, by at most 2^-20 of the scale. Adds what the search has cost to `looked`, in packets.
+  [[nodiscard]] std::optional<Nearest> nearest(const Vec3& p, Real limit,
+                                               std::uint64_t& looked) const noexcept;
+  [[nodiscard]] std::optional<Nearest> nearest(const Vec3& p, Real limit) const noexcept {
+    std::uint64_t looked = 0;
+    return nearest(p, limit, looked);
+  }
 
   /// How much of `distance` (may be infinite) of a ray lies inside the mesh, which must be closed; `outside`
   /// says that the ray is known to start there. In one traversal; nothing where that is in doubt: beside an
@@ -103,6 +108,9 @@ class MeshBody {
   /// of the body within `spread` of `from` leaves the body; 0 or less where there is none. The ball of
   /// `radius` must hold no part of the surface.
   [[nodiscard]] Real depth_from(const Vec3& from, Real spread, const Vec3& p, Real radius) const noexcept;
+
+  /// In how many packets the triangles lie.
+  [[nodiscard]] std::uint64_t packet_count() const noexcept { return packets_.packets.size(); }
 
   /// Of a ball about the origin that holds the mesh.
   [[nodiscard]] double radius() const noexcept { return radius_; }

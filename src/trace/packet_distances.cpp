@@ -113,6 +113,7 @@ NearestPoint nearest(const Packets& packets, const glm::vec3& p, float limit) {
   const V3 place = set(p);
   visit(packets, p, limit2, [&](std::uint32_t number) HWY_ATTR {
     const Packet& packet = packets.packets[number];
+    ++found.looked;
     for (std::size_t at = 0; at < kPacket; at += hn::Lanes(F())) {
       const Foot foot = nearest_in(packet, at, place);
       if (hn::AllFalse(F(), hn::Lt(foot.distance2, hn::Set(F(), limit2)))) continue;

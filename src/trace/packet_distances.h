@@ -6,13 +6,14 @@
 namespace meander {
 
 /// The point of the triangles nearest to another one; `triangle` is kNoTriangle where none is nearer than the
-/// limit.
+/// limit. `looked` is how many packets the search has looked into.
 struct NearestPoint {
   static constexpr std::uint32_t kNoTriangle = 0xffffffff;
 
   glm::vec3 point{0};
   float distance = 0;
   std::uint32_t triangle = kNoTriangle;
+  std::uint32_t looked = 0;
 };
 
 /// Of the points nearer to p than `limit` (may be infinite) the nearest, its distance exact to within 2^-21.

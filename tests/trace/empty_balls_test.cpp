@@ -257,6 +257,37 @@ TEST_CASE("crossing lanes get rays for what balls do not answer for") {
   }
 }
 
+TEST_CASE("a mesh too tangled for its field is given up in part, and what there is holds") {
+  Random random = stream(8, 0, 0);
+  Mesh hedge;  // needles from one middle, whose boxes lie all over one another
+  for (std::uint32_t i = 0; i < 25000; ++i) {
+    const DVec3 along(sample_sphere({random.next(), random.next()}));
+    const DVec3 aside = glm::normalize(glm::cross(along, DVec3(0.3, 0.5, 0.8)));
+    const DVec3 up = glm::cross(along, aside);
+    const double thick = 0.003;
+    for (const DVec3& p : {along, thick * aside, thick * (up - aside), thick * (-up - aside)})
+      hedge.positions.push_back(p);
+    const std::uint32_t a = 4 * i;
+    hedge.triangles.insert(hedge.triangles.end(),
+                           {{a, a + 1, a + 2}, {a, a + 2, a + 3}, {a, a + 3, a + 1}, {a + 1, a + 3, a + 2}});
+  }
+  const Device device = make_device(2);
+  DVec3 center;
+  const MeshBody body(device.get(), hedge, DMat3(1), center);
+  const EmptyBalls field = make_empty_balls(body, 2);
+  for (std::size_t i = 0; i < field.balls.size(); i += field.balls.size() / 20 + 1) {
+    const EmptyBall& ball = field.balls[i];
+    if (!(ball.radius2 > 0)) continue;
+    double nearest = 10;
+    for (const Triangle& t : hedge.triangles)
+      nearest = std::min(nearest, distance_to_triangle(DVec3(ball.center) + center, hedge.positions[t[0]],
+                                                       hedge.positions[t[1]], hedge.positions[t[2]]));
+    CHECK(std::sqrt(double{ball.radius2}) < nearest);
+  }
+  const std::atomic<bool> stop{true};
+  CHECK_FALSE(make_empty_balls(body, 2, kDefaultCells, stop));
+}
+
 TEST_CASE("the balls are the same on one thread and on two") {
   const Device device = make_device(2);
   DVec3 center;
