@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "display/capture.h"
 #include "io/image_file.h"
+#include "io/output_file.h"
 #include "render/first_hits.h"
 
 namespace meander {
@@ -104,6 +105,7 @@ int capture_window(const RenderOptions& options, const CaptureLook& look) {
   check_writable(options.output, kPng);
   refuse_what_only_films_have(options);
   const SceneDocument document = open_document(options, look);
+  refuse_overwriting("--output", options.output, document.scene().files);
   PreviewOptions preview;
   preview.settings = preview_settings(options);
   if (!preview.settings.budget.spp && !preview.settings.budget.seconds && !preview.settings.budget.error)
@@ -124,7 +126,7 @@ int capture_window(const RenderOptions& options, const CaptureLook& look) {
 }
 
 void add_look_options(CLI::App& verb, CaptureLook& look) {
-  verb.add_option("--exposure", look.exposure, "stops (the scene's)")->check(CLI::Range(-50.0, 50.0));
+  verb.add_option("--exposure", look.exposure, "stops (the scene's)")->check(number_between(-50, 50));
   verb.add_option("--tone", look.tone, "tone curve: srgb or filmic (the scene's)")->check(one_of(kToneNames));
   verb.add_option("--view", look.view,
                   "image, noise, samples, scatterings, length, normals, luminance or clipping (image)")
@@ -134,12 +136,13 @@ void add_look_options(CLI::App& verb, CaptureLook& look) {
                   "one panel alone: preset, material, light, camera, render, statistics, "
                   "coefficients")
       ->check(one_of(kPanelNames));
-  verb.add_option("--script", look.script, "file of edits, keys and mouse moves to play first");
+  verb.add_option("--script", look.script, "file of edits, keys and mouse moves to play first")
+      ->check(file_name());
   verb.add_option("--window", look.window, "W,H: pixels of the window with --ui (1280,720)")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(64, 16384));
-  verb.add_option("--ui-scale", look.scale, "size of text and controls (1)")->check(CLI::Range(0.5, 4.0));
+      ->transform(whole_number(64, 16384));
+  verb.add_option("--ui-scale", look.scale, "size of text and controls (1)")->check(number_between(0.5, 4));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "app/command_line.h"
 
-#include <cerrno>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <sstream>
 
 #include "core/error.h"
@@ -12,14 +12,15 @@ namespace meander {
 namespace {
 
 // A validator of one number by a predicate.
-CLI::Validator number_check(const std::string& wanted, const std::function<bool(double)>& good) {
+CLI::Validator number_check(const std::string& wanted, const std::function<bool(double)>& good,
+                            const std::string& in_help = "") {
   return CLI::Validator(
       [wanted, good](const std::string& text) -> std::string {
         double value = 0;
         if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && good(value)) return {};
         return "is '" + text + "', but must be " + wanted;
       },
-      "");
+      in_help);
 }
 
 std::string number_text(double value) {
@@ -62,8 +63,10 @@ CLI::Validator greater_than(double low) {
   return number_check("a number greater than " + number_text(low), [low](double v) { return v > low; });
 }
 CLI::Validator number_between(double low, double high) {
-  return number_check("a number from " + number_text(low) + " to " + number_text(high),
-                      [low, high](double v) { return v >= low && v <= high; });
+  return number_check(
+      "a number from " + number_text(low) + " to " + number_text(high),
+      [low, high](double v) { return v >= low && v <= high; },
+      "in [" + number_text(low) + ", " + number_text(high) + "]");
 }
 CLI::Validator finite_number() {
   return number_check("a finite number", [](double) { return true; });
@@ -77,17 +80,25 @@ CLI::Validator file_name() {
       "");
 }
 
-CLI::Validator whole_number() {
+CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
   return CLI::Validator(
-      [](const std::string& text) -> std::string {
-        const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-        errno = 0;
-        (void)std::strtoull(text.c_str(), nullptr, 10);
-        if (digits && errno == 0) return {};
-        return "is '" + text + "', but must be a whole number from 0 to 18446744073709551615";
+      [low, high](std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const char* end = text.data() + text.size();
+        const auto [parsed, failed] = std::from_chars(text.data(), end, value);
+        if (failed != std::errc() || parsed != end || value < low || value > high)
+          return "is '" + text + "', but must be a whole number from " + std::to_string(low) + " to " +
+                 std::to_string(high);
+        text = std::to_string(value);
+        return {};
       },
-      "");
+      "in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
 }
+CLI::Validator seed_number() {
+  return whole_number(0, std::numeric_limits<std::uint64_t>::max()).description("");
+}
+CLI::Validator sample_count() { return whole_number(1, std::uint64_t{1} << 31); }
+CLI::Validator thread_count() { return whole_number(1, 1024); }
 
 int run_command_line(int argc, char** argv) {
   CLI::App app("meander: random walks in translucent materials, seen at once", "meander");

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -32,7 +33,12 @@ void add_merge_command(CLI::App& app, Action& action);
 [[nodiscard]] CLI::Validator finite_number();
 /// Not empty.
 [[nodiscard]] CLI::Validator file_name();
-/// Digits alone, below 2^64: the parser would take -1 for a very large seed.
-[[nodiscard]] CLI::Validator whole_number();
+/// Decimal digits alone; to be given as a `transform`, for it takes leading zeros away: the parser would read
+/// them as octal, and -1 as a very large seed.
+[[nodiscard]] CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
+[[nodiscard]] CLI::Validator seed_number();
+/// From 1 on, and no more than a pixel can count.
+[[nodiscard]] CLI::Validator sample_count();
+[[nodiscard]] CLI::Validator thread_count();
 
 }  // namespace meander

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "app/command_line.h"
@@ -117,14 +116,6 @@ void print(const Comparison& comparison, const CompareOptions& options) {
   for (const std::string& line : comparison.warnings) std::fprintf(stderr, "warning: %s\n", line.c_str());
 }
 
-void refuse_overwriting(const CompareOptions& options) {
-  for (const std::string* input : {&options.a, &options.b, &options.mask}) {
-    std::error_code error;
-    if (std::filesystem::equivalent(*input, options.output, error))
-      throw Error(Place{options.output, 0, 0}, "--output would overwrite an input; use another name");
-  }
-}
-
 struct Picture {
   Image image;
   ImageAttributes attributes;
@@ -137,7 +128,7 @@ Picture read_picture(const std::string& path) {
 
 int run_compare(const CompareOptions& options) {
   if (!options.output.empty()) check_writable(options.output, kOutputs);
-  refuse_overwriting(options);
+  refuse_overwriting("--output", options.output, std::array{options.a, options.b, options.mask});
   const Picture first = read_picture(options.a);
   const Picture second = read_picture(options.b);
   const Image& a = first.image;

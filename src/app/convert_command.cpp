@@ -64,7 +64,9 @@ int run_convert(const ConvertOptions& options) {
   const Renderer renderer = renderer_of(options.renderer);
   const std::array<std::string_view, 1> extension{kRendererExtensions[static_cast<std::size_t>(renderer)]};
   if (!options.output.empty()) check_writable(options.output, extension);
-  const Scene scene = load_scene(options.scene, options.edits).scene;
+  const SceneFile file = load_scene(options.scene, options.edits);
+  refuse_overwriting("--output", options.output, file.files);
+  const Scene& scene = file.scene;
   const std::vector<NamedMaterial> materials = choose(scene, options.material);
   const std::string text = export_materials(materials, renderer, scene.millimetres_per_unit).text;
   if (options.output.empty())
@@ -80,10 +82,10 @@ void add_convert_command(CLI::App& app, Action& action) {
   CLI::App* verb =
       app.add_subcommand("convert", "write the translucent materials of a scene in another renderer's terms");
   const auto o = std::make_shared<ConvertOptions>();
-  verb->add_option("SCENE", o->scene, "scene file (.toml) or mesh")->required();
+  verb->add_option("SCENE", o->scene, "scene file (.toml) or mesh")->required()->check(file_name());
   verb->add_option("--to", o->renderer, list_names(kRendererNames))->required();
   verb->add_option("--material", o->material, "this one alone (all translucent ones)");
-  verb->add_option("-o,--output", o->output, "file to write (standard output)");
+  verb->add_option("-o,--output", o->output, "file to write (standard output)")->check(file_name());
   verb->add_option("--set", o->edits, "PATH=VALUE: any scene value, such as material.wax.g=0.4 (repeatable)")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -247,18 +247,19 @@ int run_measure(const MeasureOptions& options) {
 }
 
 void add_bin_options(CLI::App& verb, MeasureOptions& o) {
-  const auto count = CLI::Range(1, 100000);
+  const auto count = whole_number(1, 100000);
   verb.add_option("--angular-bins", o.bins.angular, "resolve the exitant radiance over the cosine")
-      ->check(count);
+      ->transform(count);
   verb.add_option("--radial-bins", o.bins.radial, "resolve over the distance from a pencil beam")
-      ->check(count);
+      ->transform(count);
   verb.add_option("--radius", o.radius, "range of the radial bins (10 mean free paths; mm with --sigma-*)")
       ->check(greater_than(0));
-  verb.add_option("--depth-bins", o.bins.depth, "resolve absorption and fluence over depth")->check(count);
+  verb.add_option("--depth-bins", o.bins.depth, "resolve absorption and fluence over depth")
+      ->transform(count);
   verb.add_option("--depth", o.max_depth,
                   "range of the depth bins (the slab; 10 mean free paths; mm with --sigma-*)")
       ->check(greater_than(0));
-  verb.add_option("--path-bins", o.bins.path, "resolve over the path length inside")->check(count);
+  verb.add_option("--path-bins", o.bins.path, "resolve over the path length inside")->transform(count);
   verb.add_option("--path", o.max_path, "range of the path bins (50 mean free paths; mm with --sigma-*)")
       ->check(greater_than(0));
 }
@@ -285,18 +286,18 @@ void add_measure_command(CLI::App& app, Action& action) {
   verb->add_option("--boundary", o->boundary, "matched, dielectric or diffuse (matched)")
       ->check(CLI::IsMember({"matched", "dielectric", "diffuse"}));
   verb->add_option("--ior", o->ior, "index inside over outside, 1 to 4 (1; a dielectric needs it)")
-      ->check(CLI::Range(1.0, 4.0));
+      ->check(number_between(1, 4));
   verb->add_option("--roughness", o->roughness, "of a dielectric boundary, 0 to 1 (0: smooth)")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0, 1));
   add_bin_options(*verb, *o);
   verb->add_option("--incidence", o->incidence,
                    "normal, cosine=MU or diffuse (normal; diffuse with --color)");
   verb->add_option("--estimator", o->estimator, "analog or implicit (implicit)")
       ->check(CLI::IsMember({"analog", "implicit"}));
   verb->add_option("--walks", o->walks, "number of walks (10^6)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 50));
-  verb->add_option("--seed", o->seed, "random seed (0)")->check(whole_number());
-  verb->add_option("--threads", o->threads, "threads (all)")->check(CLI::Range(1, 1024));
+      ->transform(whole_number(1, std::uint64_t{1} << 50));
+  verb->add_option("--seed", o->seed, "random seed (0)")->transform(seed_number());
+  verb->add_option("--threads", o->threads, "threads (all)")->transform(thread_count());
   add_walk_options(*verb, o->walk, o->isa);
   verb->add_flag("--json", o->json, "print JSON");
   verb->add_flag("--csv", o->csv, "print CSV: the bins where there are any");

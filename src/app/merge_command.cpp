@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -156,18 +155,10 @@ class Merge {
   FilmUnion sum_;
 };
 
-void refuse_overwriting(const MergeOptions& options) {
-  for (const std::string& input : options.inputs) {
-    std::error_code error;
-    if (std::filesystem::equivalent(input, options.output, error))
-      throw Error(Place{options.output, 0, 0}, "--output would overwrite an input; use another name");
-  }
-}
-
 int run_merge(const MergeOptions& options) {
   if (options.inputs.size() < 2) throw Error(Fault::input, "merge needs two images or more");
   check_writable(options.output, kExr);
-  refuse_overwriting(options);
+  refuse_overwriting("--output", options.output, options.inputs);
   Merge merge;
   for (const std::string& input : options.inputs) merge.add(read_part(input));
   merge.write(options.output);
@@ -186,7 +177,9 @@ void add_merge_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand(
       "merge", "the union of images of one scene with disjoint samples, as if one run had made them");
   const auto o = std::make_shared<MergeOptions>();
-  verb->add_option("IN", o->inputs, "images of meander render or merge (.exr)")->required();
+  verb->add_option("IN", o->inputs, "images of meander render or merge (.exr)")
+      ->required()
+      ->check(file_name());
   verb->add_option("-o,--output", o->output, "image file to write (.exr)")->required()->check(file_name());
   verb->add_flag("--quiet", o->quiet, "say nothing but errors");
   verb->callback([=, &action] { action = [=] { return run_merge(*o); }; });

@@ -48,13 +48,15 @@ void add_preview_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<RenderOptions>();
   const auto asked = std::make_shared<WindowOptions>();
   verb->add_option("SCENE", options->scene,
-                   "scene file (.toml), or a bare mesh (a knot of wax when none is given)");
+                   "scene file (.toml), or a bare mesh (a knot of wax when none is given)")
+      ->check(file_name());
   add_budget_options(*verb, *options);
-  verb->add_option("--script", asked->script, "file of edits, keys and mouse moves to play");
+  verb->add_option("--script", asked->script, "file of edits, keys and mouse moves to play")
+      ->check(file_name());
   verb->add_option("--window", asked->window, "W,H: size of the window (1280,720)")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(64, 16384));
+      ->transform(whole_number(64, 16384));
   verb->callback([=, &action] { action = [=] { return preview(*options, *asked); }; });
 }
 

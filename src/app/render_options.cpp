@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -67,6 +68,9 @@ void check_outputs(const RenderOptions& options, std::span<const std::string_vie
   constexpr std::string_view kJson[] = {".json"};
   check_writable(options.output, extensions);
   if (!options.stats.empty()) check_writable(options.stats, kJson);
+  const std::array resumed{options.resume};
+  refuse_overwriting("--output", options.output, resumed);
+  refuse_overwriting("--stats", options.stats, resumed);
   if (options.checkpoint.empty()) return;
   check_checkpoint_writable(options.checkpoint);
   for (const std::string& other : {options.output, options.stats})
@@ -111,17 +115,15 @@ void add_walk_options(CLI::App& verb, std::string& walk, std::string& isa) {
 }
 
 void add_budget_options(CLI::App& verb, RenderOptions& o) {
-  verb.add_option("--spp", o.spp, "samples a pixel at which the image is done")
-      ->check(at_least(1))
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31));
+  verb.add_option("--spp", o.spp, "samples a pixel at which the image is done")->transform(sample_count());
   verb.add_option("--time", o.seconds, "seconds to render for")->check(greater_than(0));
   verb.add_option("--error,--noise", o.error, "relative noise to reach, such as 0.01")
       ->check(greater_than(0));
-  verb.add_option("--seed", o.seed, "random seed (0)")->check(whole_number());
+  verb.add_option("--seed", o.seed, "random seed (0)")->transform(seed_number());
   verb.add_option("--threads", o.threads, "threads (all that the machine has, and at most those)")
-      ->check(CLI::Range(1, 1024));
-  verb.add_option("--width", o.width, "film width, pixels")->check(CLI::Range(1, 16384));
-  verb.add_option("--height", o.height, "film height, pixels")->check(CLI::Range(1, 16384));
+      ->transform(thread_count());
+  verb.add_option("--width", o.width, "film width, pixels")->transform(whole_number(1, 16384));
+  verb.add_option("--height", o.height, "film height, pixels")->transform(whole_number(1, 16384));
   verb.add_option("--estimator", o.estimator, "analog or implicit (implicit)")
       ->check(CLI::IsMember({"analog", "implicit"}));
   add_walk_options(verb, o.walk, o.isa);
@@ -131,15 +133,18 @@ void add_budget_options(CLI::App& verb, RenderOptions& o) {
 }
 
 void add_render_options(CLI::App& verb, RenderOptions& o) {
-  verb.add_option("SCENE", o.scene, "scene file (.toml), or a bare mesh (.ply .obj .glb .stl)")->required();
+  verb.add_option("SCENE", o.scene, "scene file (.toml), or a bare mesh (.ply .obj .glb .stl)")
+      ->required()
+      ->check(file_name());
   verb.add_option("-o,--output", o.output, "image file to write")->required()->check(file_name());
   add_budget_options(verb, o);
   verb.get_option("--spp")->description("samples a pixel (64 when neither --time nor --error is given)");
   verb.add_option("--first-sample", o.first_sample, "number of the first sample (0)")
-      ->check(CLI::Range(0u, 1u << 31));
+      ->transform(whole_number(0, std::uint64_t{1} << 31));
   verb.add_option("--crop", o.crop, "X0,Y0,X1,Y1: render this rectangle of the film only")
       ->delimiter(',')
-      ->expected(4);
+      ->expected(4)
+      ->transform(whole_number(0, 16384));
   verb.add_option("--stats", o.stats, "file for statistics (.json)")->check(file_name());
   CLI::Option* checkpoint =
       verb.add_option("--checkpoint", o.checkpoint,
@@ -180,6 +185,8 @@ Budget budget_of(const RenderOptions& options) {
 
 Job prepare_job(const RenderOptions& options) {
   SceneFile file = load_scene(options.scene, options.edits);
+  refuse_overwriting("--output", options.output, file.files);
+  refuse_overwriting("--stats", options.stats, file.files);
   if (!options.quiet)
     for (const std::string& warning : file.warnings) warn(warning);
   Job job = make_job(options, std::move(file.scene));

@@ -179,12 +179,13 @@ void add_report_command(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"scalar", "batch"}));
   verb->add_option("--thread-counts", o->threads, "1,2: run with each of these numbers of threads")
       ->delimiter(',')
-      ->check(CLI::Range(1, 1024));
+      ->transform(thread_count());
   CLI::Option* given =
-      verb->add_option("--reference", o->reference, "image to measure the error from (one of its own)");
+      verb->add_option("--reference", o->reference, "image to measure the error from (one of its own)")
+          ->check(file_name());
   verb->add_option("--reference-spp", o->reference_spp,
                    "samples a pixel of its own reference (16 times the largest budget)")
-      ->check(CLI::Range(std::uint64_t{2}, std::uint64_t{1} << 31))
+      ->transform(whole_number(2, std::uint64_t{1} << 31))
       ->excludes(given);
   verb->callback([o, &action] { action = [o] { return run_report(*o); }; });
 }

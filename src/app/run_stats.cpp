@@ -45,7 +45,7 @@ std::string stats_json(const Job& job, const Rendering& rendering, const char* e
   stats["seed"] = job.seed;
   stats["first_sample"] = job.first_sample;
   stats["threads"] = job.threads;
-  stats["isa"] = job.walk == WalkCode::batch ? name_of(job.instruction_set) : "baseline";
+  stats["isa"] = uses_lanes(job) ? name_of(job.instruction_set) : "baseline";
   stats["width"] = rendering.film.width;
   stats["height"] = rendering.film.height;
   stats["spp"] = rendering.spp;
@@ -65,7 +65,7 @@ std::string stats_json(const Job& job, const Rendering& rendering, const char* e
   stats["peak_memory_bytes"] = peak_memory_bytes();
   stats["model"] = describe_model(job);
   stats["estimator"] = job.estimator == Estimator::analog ? "analog" : "implicit";
-  return stats.dump(2) + "\n";
+  return stats.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 ImageAttributes image_attributes(const Job& job, const Rendering& rendering) {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <new>
 #include <optional>
 #include <system_error>
@@ -92,6 +93,9 @@ CheckpointFields fields_of(const std::string& text) {
 
 // Memory is asked for only once the file is known to be as long as it says.
 void check_length(const std::string& path, std::size_t head, std::uint64_t pixels) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max() / (2 * sizeof(Pixel));
+  if (pixels > kMost)
+    throw bad_checkpoint(path, "is damaged: it names a film of " + std::to_string(pixels) + " pixels");
   const std::uint64_t wanted = head + pixels * sizeof(Pixel) + sizeof(Digests);
   const std::uint64_t size = fs::file_size(path);
   if (size != wanted)

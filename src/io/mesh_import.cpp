@@ -14,24 +14,13 @@
 #include <utility>
 #include <vector>
 
+#include "io/ply_check.h"
 #include "math/types.h"
 #include "scene/mesh.h"
 
 namespace meander {
 
 namespace {
-
-// In a header that does not end, assimp 5.2 looks for the end forever.
-void check_ply_header(const FileBytes& content) {
-  constexpr std::string_view kEnd = "end_header";
-  const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
-  for (std::size_t at = text.find(kEnd, 1); at != text.npos; at = text.find(kEnd, at + 1)) {
-    const std::size_t after = at + kEnd.size();
-    const bool starts_line = text[at - 1] == '\n' || text[at - 1] == '\r';
-    if (starts_line && after < text.size() && (text[after] == '\n' || text[after] == '\r')) return;
-  }
-  throw std::runtime_error("its header has no end_header line");
-}
 
 // All the files there are, as far as assimp can tell: the one that was read. No materials, images or buffers.
 class OneFile final : public Assimp::IOSystem {
@@ -186,7 +175,8 @@ void put_scene(Answer& answer, const aiScene& scene, MeshFormat format) {
 }  // namespace
 
 void import_mesh(const FileBytes& content, MeshFormat format, const std::string& name, Answer& answer) {
-  if (format == MeshFormat::ply) check_ply_header(content);
+  if (format == MeshFormat::ply)
+    check_ply(content);  // in a header that does not end, assimp 5.2 looks on forever
   Assimp::Importer importer;
   keep_one_importer(importer, format);
   importer.SetIOHandler(new OneFile(name, content));

@@ -34,13 +34,17 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// Where a path leads: what a link points to is written, and the link stays.
+// Where a path leads: what a link points to is written, whether it is there yet or not, and the link stays.
 fs::path target_of(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as the system follows
   std::error_code failed;
-  const fs::path wanted(path);
-  if (!fs::is_symlink(wanted, failed)) return wanted;
-  const fs::path target = fs::weakly_canonical(wanted, failed);
-  return failed ? wanted : target;
+  fs::path target(path);
+  for (int links = 0; links < kMostLinks && fs::is_symlink(target, failed); ++links) {
+    const fs::path next = fs::read_symlink(target, failed);
+    if (failed) break;
+    target = folder_of(target) / next;  // which is `next` where that is absolute
+  }
+  return target;
 }
 
 // What temporary names of a path begin with; the process and the extension follow.
@@ -132,6 +136,8 @@ void check_writable(const std::string& path, std::span<const std::string_view> e
     throw cannot_write(path, (extension.empty() ? "it has no file type" : "unknown file type " + extension) +
                                  "; use " + list_names(extensions));
   }
+  if (fs::exists(wanted, ignored) && !fs::is_regular_file(wanted, ignored))
+    throw cannot_write(path, "it is not a regular file");
   const std::string folder = folder_of(wanted).string();
   if (!fs::exists(folder, ignored)) throw cannot_write(path, "there is no folder " + folder);
   if (!fs::is_directory(folder, ignored)) throw cannot_write(path, folder + " is not a folder");
@@ -140,6 +146,15 @@ void check_writable(const std::string& path, std::span<const std::string_view> e
   }
   remove_abandoned(target_of(path));
   const Partial probe(path);
+}
+
+void refuse_overwriting(std::string_view option, const std::string& path,
+                        std::span<const std::string> inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (fs::equivalent(input, path, error))
+      throw Error(Place{path, 0, 0}, std::string(option) + " would overwrite an input; use another name");
+  }
 }
 
 void write_file(const std::string& path, std::span<const std::byte> bytes) {

@@ -5,6 +5,7 @@
 #include <deque>
 #include <vector>
 
+#include "io/key_depth.h"
 #include "io/medium_file.h"
 
 namespace meander {
@@ -54,6 +55,7 @@ std::vector<std::string> split_path(const toml::table& document, const std::stri
 
 // Parses a value the way the file would; what is not TOML is plain text.
 toml::table parse_value(const std::string& text, const std::string& source) {
+  if (find_deep_key(text, source)) throw deep_key({source, 0, 0});
   try {
     return toml::parse("v = " + text, source);
   } catch (const toml::parse_error&) {
@@ -107,6 +109,7 @@ void apply_edit(toml::table& document, const std::string& edit, const std::strin
   const std::vector<std::string> parts = split_path(document, edit.substr(0, equals));
   const bool named = std::find(kLists.begin(), kLists.end(), std::string_view(parts[0])) != kLists.end();
   const std::size_t first_key = named ? 2 : 1;
+  if (parts.size() > kMostKeyParts) throw deep_key(place);
   if (parts.size() <= first_key)
     throw Error(place, named ? "a path into a list must read " + parts[0] + ".NAME.KEY"
                              : "a path must read SECTION.KEY, such as film.width");

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "io/document_state.h"
+#include "io/key_depth.h"
 #include "io/scene_edit.h"
 #include "io/scene_reader.h"
 #include "io/studio.h"
@@ -16,12 +17,17 @@ namespace {
 
 constexpr std::uintmax_t kLargestText = std::uintmax_t{16} << 20;
 
-std::string read_text(const std::string& path) {
+void check_is_file(const std::string& path) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code))
     throw Error(Place{path, 0, 0}, "is a folder, not a scene file");
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
     throw Error(Place{path, 0, 0}, "is not a regular file");
+}
+
+std::string read_text(const std::string& path) {
+  check_is_file(path);
+  std::error_code code;
   if (const auto bytes = std::filesystem::file_size(path, code); !code && bytes > kLargestText)
     throw Error(Place{path, 0, 0}, "is larger than 16 MiB, too large for a scene file");
   std::ifstream stream(path, std::ios::binary);
@@ -52,6 +58,7 @@ bool is_scene_file(const std::string& path) {
 }  // namespace
 
 DocumentState parse_document(const std::string& text, const std::string& path) {
+  if (const auto deep = find_deep_key(text, path)) throw deep_key(*deep);
   try {
     return {toml::parse(text, path), path, leading_comment(text), {path}};
   } catch (const toml::parse_error& error) {
@@ -68,8 +75,9 @@ DocumentState open_document(const std::string& path, SceneCache& cache) {
     state.stamp = std::move(stamp);
     return state;
   }
+  check_is_file(path);
   const auto cached = cache.mesh(path, false);
-  return parse_document(studio_text(*cached->mesh, path), path);
+  return {toml::parse(studio_text(*cached->mesh, path)), path, {}, {path}};
 }
 
 SceneFile load_scene(const std::string& path, std::span<const std::string> edits) {

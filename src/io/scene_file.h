@@ -12,6 +12,7 @@ namespace meander {
 struct SceneFile {
   Scene scene;
   std::vector<std::string> warnings;  // one line each
+  std::vector<std::string> files;     // that were read: the scene's own, and those that it names
 };
 
 /// Reads a scene, applying the edits (`PATH=VALUE`, see scene_edit.h) first. `path` ends in .toml, or in the

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "io/camera_file.h"
+#include "io/document_state.h"
 #include "io/light_file.h"
 #include "io/material_file.h"
 
@@ -192,7 +193,10 @@ class SceneReader {
 }  // namespace
 
 SceneFile read_scene(const toml::table& document, const std::string& path, SceneCache& cache) {
-  return SceneReader(document, path, cache).read();
+  SceneFile file = SceneReader(document, path, cache).read();
+  file.files = files_of(document, path);
+  file.files.push_back(path);
+  return file;
 }
 
 std::string named_file(const std::string& scene_path, const std::string& name) {

@@ -35,14 +35,15 @@ DVec3 direction(double azimuth, double elevation) {
 }  // namespace
 
 std::string studio_text(const Mesh& mesh, const std::string& path) {
-  constexpr double kLargest = 1e20;
+  constexpr double kFarthest = 1e20;
+  constexpr double kLargest = 1e12;  // as in a scene
   const Bounds bounds = bounds_of(mesh);
   const DVec3 center = 0.5 * (bounds.low + bounds.high);
   const double radius = 0.5 * glm::length(bounds.high - bounds.low);
-  if (!(radius <= kLargest && radius >= 1 / kLargest && glm::length(center) <= kLargest)) {
+  if (!(2 * radius <= kLargest && 2 * radius >= 1 / kLargest && glm::length(center) <= kFarthest)) {
     std::ostringstream text;
     text << "is " << 2 * radius << " across, its middle " << glm::length(center)
-         << " from the origin; without a scene file a mesh must be 2e-20 to 2e20 across, within 1e20 of the "
+         << " from the origin; without a scene file a mesh must be 1e-12 to 1e12 across, within 1e20 of the "
             "origin";
     throw Error(Place{path, 0, 0}, text.str());
   }

@@ -62,7 +62,8 @@ void set_color(toml::table& table, std::string_view key, const Rgb& value) {
 
 Place place_of(const toml::node& node, const std::string& file) {
   const toml::source_region& source = node.source();
-  if (source.path && source.path->starts_with("--set ")) return {*source.path, 0, 0};
+  if (!source.path) return {file, 0, 0};  // no text that anybody has written
+  if (source.path->starts_with("--set ")) return {*source.path, 0, 0};
   return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 

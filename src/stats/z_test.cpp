@@ -14,6 +14,7 @@ namespace meander {
 namespace {
 
 constexpr double kRounding = 1e-6;  // standard error granted to a value, relative to |a| + |b|
+constexpr double kLost = 0x1p-74;   // and in each image: a variance below 2^-149 is stored as 0
 
 // A sum of differences with its two kinds of error: independent noise, whose variances add, and rounding,
 // which may lean the same way everywhere, so that its standard errors add.
@@ -47,7 +48,7 @@ Difference difference_at(const Image& a, const Image& b, std::size_t pixel, int 
   const bool usable = std::isfinite(x) && std::isfinite(y) && std::isfinite(variance_a + variance_b) &&
                       std::min(variance_a, variance_b) >= 0;
   if (!usable) return {};
-  return {x - y, variance_a, variance_b, kRounding * (std::abs(x) + std::abs(y)), 1};
+  return {x - y, variance_a, variance_b, kRounding * (std::abs(x) + std::abs(y)) + 2 * kLost, 1};
 }
 
 // z of a single value. The mean variance of the block, raised as blocks are, stands in where it is larger.

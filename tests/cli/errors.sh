@@ -34,6 +34,14 @@ refuse '--sppp' render in/good.toml -o out/a.exr --sppp 4
 refuse 'required' render in/good.toml
 refuse "'0'" render in/good.toml -o out/a.exr --spp 0
 refuse "'-3'" render in/good.toml -o out/a.exr --time -3
+for number in nan inf 010x 0x10 1e2 -1; do
+  refuse "is '$number', but must be a whole number from 1 to 2147483648" render in/good.toml -o out/a.exr --spp="$number"
+done
+refuse '--crop: is '"'a', but must be a whole number from 0 to 16384" render in/good.toml -o out/a.exr --crop a,0,4,4
+refuse "--ior: is 'nan', but must be a number from 1 to 4" measure slab --boundary dielectric --ior nan
+refuse "--roughness: is 'nan', but must be a number from 0 to 1" measure slab --boundary dielectric --ior 1.5 --roughness nan
+refuse "--exposure: is 'nan', but must be a number from -50 to 50" capture in/good.toml -o out/a.png --exposure nan
+refuse "--ui-scale: is 'nan', but must be a number from 0.5 to 4" capture in/good.toml -o out/a.png --ui --ui-scale nan
 refuse "'nan'" render in/good.toml -o out/a.exr --error nan
 refuse 'analog' render in/good.toml -o out/a.exr --estimator guided
 refuse '0 <= X0 < X1 <= 256' render in/good.toml -o out/a.exr --crop 10,10,10,20
@@ -96,6 +104,31 @@ refuse '--inversion is that of --color' measure halfspace --inversion chiang
 refuse 'a slab in mm needs --thickness' measure slab --sigma-s 10 --sigma-a 0.1
 refuse 'none.exr' compare in/none.exr in/none.exr
 refuse "is '', but must be the name of a file" render in/good.toml -o ''
+refuse "SCENE: is '', but must be the name of a file" render '' -o out/a.exr
+refuse 'in: is a folder, not a scene file' render in -o out/a.exr
+refuse '/dev/null: is not a regular file' render /dev/null -o out/a.exr
+# Nothing that is read is written over, and no device is put away for a file.
+"$meander" render in/good.toml -o in/sky.exr --spp 2 --width 8 --height 8 --checkpoint in/run.exr --quiet
+printf '[environment]\nimage = "sky.exr"\n' | scene sky
+cp in/sky.exr kept.exr
+refuse 'in/sky.exr: --output would overwrite an input' render in/sky.toml -o in/sky.exr
+refuse 'in/run.exr: --output would overwrite an input' render in/good.toml --spp 2 --width 8 --height 8 --resume in/run.exr -o in/run.exr
+ln -s sky.exr in/link.exr
+refuse 'in/link.exr: --output would overwrite an input' render in/sky.toml -o in/link.exr
+cmp in/sky.exr kept.exr || { echo "FAILED: an input was written over"; failures=$((failures + 1)); }
+mkfifo in/pipe.exr
+ln -s pipe.exr in/to_pipe.exr
+for name in pipe to_pipe; do refuse "cannot write in/$name.exr: it is not a regular file" render in/good.toml -o in/$name.exr; done
+[ -p in/pipe.exr ] || { echo "FAILED: a pipe was put away"; failures=$((failures + 1)); }
+
+# Leading zeros are no octal numbers.
+"$meander" render in/good.toml -o in/ten.exr --seed 010 --spp 010 --width 08 --height 8 --quiet --stats in/ten.json
+grep -q '"seed": 10' in/ten.json && grep -q '"spp": 10' in/ten.json || { echo "FAILED: 010 is not ten"; failures=$((failures + 1)); }
+# A scene whose name is not UTF-8 has statistics all the same.
+cp in/good.toml $'in/\xff.toml'
+"$meander" render $'in/\xff.toml' -o in/ten.exr --spp 2 --width 8 --height 8 --quiet --estimator analog --stats in/name.json &&
+  grep -q '"isa": "baseline"' in/name.json || { echo "FAILED: statistics of a scene whose name is not UTF-8"; failures=$((failures + 1)); }
+
 # A seed that no signed integer holds travels as text.
 "$meander" render in/good.toml -o in/large.exr --seed 18446744073709551615 --spp 2 --width 8 --height 8 --quiet
 refuse 'the very samples of seed 18446744073709551615' report in/good.toml -o out/report --seed 18446744073709551615 \

@@ -132,6 +132,9 @@ mkdir -p far && ln -s ../far/b.exr out/b.exr && echo old >far/b.exr
 "$meander" render scene.toml "${small[@]}" --spp 2 -o out/b.exr || fail "a render through a link"
 [[ -L out/b.exr && $(ls -A far) == b.exr ]] || fail "a link was replaced, or something was left beside its target"
 head -c 4 far/b.exr | cmp - <(printf '\x76\x2f\x31\x01') || fail "what a link points to was not written"
+rm -f far/b.exr
+"$meander" render scene.toml "${small[@]}" --spp 2 -o out/b.exr || fail "a render through a link to nothing"
+[[ -L out/b.exr && $(ls -A far) == b.exr ]] || fail "a link to nothing was replaced, or its target not written"
 rm -rf far out/b.exr
 
 sed -i 's/^albedo.*/albedo = 0.91/' scene.toml

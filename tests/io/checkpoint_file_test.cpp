@@ -15,7 +15,6 @@
 namespace meander {
 namespace {
 
-
 std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -120,7 +119,9 @@ TEST_CASE("what is no checkpoint says so") {
   put(folder.at("new"), "meander checkpoint 2\nfilm 1 1\n\n");
   CHECK(refusal(folder.at("new")).starts_with("is a checkpoint of format 2, which a newer meander wrote"));
   put(folder.at("huge"), "meander checkpoint 1\nfilm 2147483647 2147483647\n\n");
-  CHECK(refusal(folder.at("huge")).starts_with("is no whole checkpoint: it has "));
+  CHECK(refusal(folder.at("huge")) == "is damaged: it names a film of 4611686014132420609 pixels");
+  put(folder.at("wrapped"), "meander checkpoint 1\nfilm 536870912 268435456\n\n" + std::string(16, 'a'));
+  CHECK(refusal(folder.at("wrapped")) == "is damaged: it names a film of 144115188075855872 pixels");
   put(folder.at("filmless"), "meander checkpoint 1\nspp 3\n\n");
   CHECK(refusal(folder.at("filmless")) == "is damaged: it names no film");
 }

@@ -263,6 +263,35 @@ TEST_CASE("a small file that instances its triangles beyond the limit is refused
   CHECK(timer.seconds() < 5);
 }
 
+TEST_CASE("a ply file that ends before its elements do is refused wherever it ends") {
+  const TemporaryFolder folder;
+  const std::string header = ply_header("binary_big_endian", "8", "12");
+  std::string big_endian = header + binary_ply().substr(ply_header("binary_little_endian", "8", "12").size());
+  for (std::size_t at = header.size(); at < header.size() + 8 * 12; at += 4)
+    std::reverse(&big_endian[at], &big_endian[at] + 4);
+  for (int face = 0; face < 12; ++face)
+    for (int k = 0; k < 3; ++k) {
+      char* index = &big_endian[header.size() + 8 * 12 + static_cast<std::size_t>(face) * 13 + 1 +
+                                4 * static_cast<std::size_t>(k)];
+      std::reverse(index, index + 4);
+    }
+  std::string of_windows = ascii_ply();
+  for (std::size_t at = 0; (at = of_windows.find('\n', at)) != std::string::npos; at += 2)
+    of_windows.replace(at, 1, "\r\n");
+  for (const std::string& whole : {ascii_ply(), binary_ply(), big_endian, of_windows}) {
+    CHECK(load_mesh(folder.write("cut.ply", whole), false).mesh.triangles.size() == 12);
+    CHECK(load_mesh(folder.write("cut.ply", whole + "more"), false).mesh.triangles.size() == 12);
+    const std::size_t begin = whole.find("end_header") + 12;
+    const std::size_t end = whole.find_last_not_of("\r\n");  // of a number nobody knows whether it is whole
+    for (std::size_t length = begin; length <= end - (whole.find("ascii") == std::string::npos ? 0 : 1);
+         length += 7)
+      CHECK(contains(error_of(folder.write("cut.ply", whole.substr(0, length))), "it ends within "));
+  }
+  const std::string last = binary_ply().substr(0, binary_ply().size() - 1);
+  CHECK(contains(error_of(folder.write("cut.ply", last)),
+                 "cannot be read as .ply: it ends within face 12 of 12"));
+}
+
 TEST_CASE("truncated files load what is left or are refused") {
   const TemporaryFolder folder;
   for (const Sample& sample : samples()) {

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "io/scene_text.h"
+#include "support/temporary_folder.h"
 
 using namespace meander;
 
@@ -121,6 +122,44 @@ TEST_CASE("bad input is one line with the place, the wrong value and the right o
   CHECK(error_of("[[light]]\nname = \"a\"\n") == ":1:1: [[light]] needs 'type'");
   CHECK(error_of("[[light]]\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = -2\n") ==
         ":4:10: 'radius' is -2, but must be greater than 0");
+}
+
+TEST_CASE("keys of many parts are refused before they nest tables without end, and nothing else is") {
+  const auto parts = [](int count) {
+    std::string key = "a";
+    for (int i = 1; i < count; ++i) key += i % 2 ? ".a" : " . \"#.'\"";
+    return key;
+  };
+  const std::string refusal = "a key has more than 16 parts; those of a scene have at most three, such as ";
+  for (const int count : {17, 40000})
+    for (const std::string& text :
+         {parts(count) + " = 1", "[" + parts(count) + "]", "x = {" + parts(count) + " = 1}",
+          "x = ['''a''''', {" + parts(count) + " = 1}]"}) {
+      CHECK(error_of("\n" + text).starts_with(":2:"));
+      CHECK(error_of("\n" + text).ends_with(refusal + "camera.look_at"));
+    }
+  CHECK(error_of(parts(16) + " = 1").starts_with(":1:1: unknown key 'a'"));
+  std::string dots(1000, '.');
+  CHECK(error_of("# " + dots + "\nx = \"" + dots + "\"\n").starts_with(":2:1: unknown key 'x'"));
+  CHECK(error_of("x = \"\"\"\n" + dots + "\\\"\"\" # \n" + dots + "\"\"\"\n")
+            .starts_with(":1:1: unknown key 'x'"));
+  std::string list = "x = [";
+  for (int i = 0; i < 100; ++i) list += "1.5, ";
+  CHECK(error_of(list + "]").starts_with(":1:1: unknown key 'x'"));
+  const std::string wax = kWax + "albedo = 0.5\nmean_free_path = 1\n";
+  CHECK(error_of(wax, {"film." + parts(40000) + "=1"}).ends_with(refusal + "camera.look_at"));
+  CHECK(
+      error_of(wax, {"film.width={" + parts(40000) + "=1}"}).ends_with("=1}: " + refusal + "camera.look_at"));
+}
+
+TEST_CASE("what is wrong with a bare mesh has no place in a scene file") {
+  const TemporaryFolder folder;
+  const std::string flat = folder.write(
+      "flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1e-30\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  CHECK_THROWS_WITH_AS((void)load_scene(flat, {}),
+                       (flat + ": " + flat + " encloses no volume, and cannot hold a medium").c_str(), Error);
+  CHECK_THROWS_WITH_AS((void)load_scene(folder.path().string(), {}),
+                       (folder.path().string() + ": is a folder, not a scene file").c_str(), Error);
 }
 
 TEST_CASE("files that are not there") {

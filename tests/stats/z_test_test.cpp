@@ -291,6 +291,13 @@ TEST_CASE("Furnace images without variance pass within rounding and fail 1e-3 ap
   CHECK(z_test(Image(8, 8, 6), Image(8, 8, 6)).passed);
 }
 
+TEST_CASE("Values so dim that their variance is stored as 0 are not taken for certain") {
+  // Of these values no variance below their square can be stored in single precision.
+  const Image dim = constant_image(32, 7e-25f, 0);
+  CHECK(z_test(constant_image(32, 1.9e-24f, 0), dim).passed);
+  CHECK_FALSE(z_test(constant_image(32, 1e-15f, 0), dim).passed);
+}
+
 TEST_CASE("A mask confines the test to what it counts") {
   const Image b = constant_image(16, 1, 0);
   Image a = b;
