@@ -98,13 +98,20 @@ void Storm::calm_down() {
   previewer_.carry_out({CommandKind::budget_noise, 0, 0, {}, {}});
   previewer_.carry_out({CommandKind::budget_seconds, 0, 0, {}, {}});
   previewer_.carry_out({CommandKind::budget_spp, 8, 0, {}, {}});
-  // A picture of more samples, as a field or slider of the budget may have asked for, is begun anew.
-  if (previewer_.spp() > 8) previewer_.carry_out({CommandKind::threads, 2, 0, {}, {}});
   const Timer timer;
   while (timer.seconds() < 300) {
     frame();
-    if (previewer_.spp() == 8) return;
-    const bool paused = previewer_.idle() && timer.seconds() > 2;
+    if (previewer_.spp() == 8 && previewer_.idle()) return;
+    // A picture of more samples is begun anew: a field or slider of the budget may have asked for them, or a
+    // pass have been under way.
+    if (previewer_.spp() > 8) {
+      previewer_.carry_out({CommandKind::threads, 2, 0, {}, {}});
+      for (int i = 0; i < 100 && previewer_.spp() > 8; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        frame();
+      }
+    }
+    const bool paused = previewer_.spp() < 8 && previewer_.idle() && timer.seconds() > 2;
     if (paused) {
       previewer_.carry_out({CommandKind::pause, 0, 0, {}, {}});
       for (int i = 0; i < 200 && previewer_.idle(); ++i)
