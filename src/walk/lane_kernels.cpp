@@ -124,17 +124,17 @@ class Kernel {
                hn::MulAdd(distance, d.z, p.z)};
     const MF safe = region_.holds(running, p, q, lanes_, at);
     store(choose(safe, q, p), lanes_.position, at);
-    const VU one = hn::Set(U(), 1);
-    const auto add = [&](std::uint32_t* row, MF mask) {
-      const VU old = hn::Load(U(), row + at);
-      hn::Store(hn::Add(old, hn::IfThenElseZero(hn::RebindMask(U(), mask), one)), U(), row + at);
-    };
-    add(lanes_.steps, running);
+    const VU step = hn::IfThenElseZero(hn::RebindMask(U(), running), hn::Set(U(), 1));
+    const VU steps = hn::Add(hn::Load(U(), lanes_.steps + at), step);
+    hn::Store(steps, U(), lanes_.steps + at);
     collide(at, safe, distance, random);
     // What was not safe waits for its ray; what roulette ended is marked already.
     VU state = hn::Load(U(), lanes_.state + at);
     const MF waits = hn::AndNot(safe, running);
     state = hn::IfThenElse(hn::RebindMask(U(), waits), of(LaneState::crossing), state);
+    const VU since = hn::And(steps, hn::Set(U(), kSumInterval - 1));
+    const auto sums = hn::And(hn::Eq(since, hn::Zero(U())), hn::Eq(state, of(LaneState::running)));
+    state = hn::IfThenElse(sums, of(LaneState::summed), state);
     hn::Store(state, U(), lanes_.state + at);
     keep(random, at);
   }

@@ -57,7 +57,6 @@ class LaneWalks {
     while (in_use_ > 0) {
       if (client_.stop()) return false;
       advance_lanes(set_, model_, lanes_, kLanes, kLanes - in_use_ + std::min(kRestingLanes, in_use_));
-      if (++rounds_ % kGatherInterval == 0) gather();
       find_resting(set_, model_, lanes_, resting_);
       give_balls_where_collided();
       if constexpr (kTogether)
@@ -83,10 +82,6 @@ class LaneWalks {
     int hero = 0;
   };
 
-  // Rounds between two gatherings, none of which makes more than kStopInterval steps: 16384 summands at most
-  // are summed up in single precision.
-  static constexpr int kGatherInterval = 16;
-
   // What a lane's walk has flown and left behind before the lane's own sums began.
   struct Gathered {
     double length = 0;
@@ -94,13 +89,11 @@ class LaneWalks {
     double absorbed = 0;
   };
 
-  void gather() noexcept {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      Gathered& sum = gathered_[lane];
-      sum.length += double{std::exchange(lanes_.length[lane], 0.0f)};
-      sum.path += double{std::exchange(lanes_.path[lane], 0.0f)};
-      sum.absorbed += double{std::exchange(lanes_.absorbed[lane], 0.0f)};
-    }
+  void gather(int lane) noexcept {
+    Gathered& sum = gathered_[lane];
+    sum.length += double{std::exchange(lanes_.length[lane], 0.0f)};
+    sum.path += double{std::exchange(lanes_.path[lane], 0.0f)};
+    sum.absorbed += double{std::exchange(lanes_.absorbed[lane], 0.0f)};
   }
 
   void put(int lane, const Walker& walker, const Random& random) noexcept {
@@ -210,6 +203,12 @@ class LaneWalks {
 
   void see_to(int lane) {
     const auto state = static_cast<LaneState>(lanes_.state[lane]);
+    // By its own steps, so that its sums are rounded alike in whatever company it walks.
+    if (lanes_.steps[lane] % kSumInterval == 0) gather(lane);
+    if (state == LaneState::summed) {
+      lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::running);
+      return;
+    }
     WalkResult result{WalkEnd::absorbed, {}};
     if (state == LaneState::crossing) {
       result.crossing = finish_ray(lane);
@@ -263,7 +262,6 @@ class LaneWalks {
   Lanes lanes_{};
   Put put_[kLanes] = {};
   Gathered gathered_[kLanes];
-  std::uint32_t rounds_ = 0;
   int in_use_ = 0;
   static auto begun_kind() {
     if constexpr (kTogether)

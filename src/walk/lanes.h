@@ -18,12 +18,16 @@ namespace meander {
 /// cache.
 inline constexpr int kLanes = 128;
 
+/// Steps whose lengths a lane sums up at most: single precision holds no long sums.
+inline constexpr std::uint32_t kSumInterval = 4096;
+
 /// Why a lane rests. `running` lanes do not.
 enum class LaneState : std::uint32_t {
   running,
   crossing,  // the step of length `distance` may cross the surface: a ray has to tell
   collided,  // a collision's weight has been applied and the old direction still stands
   absorbed,  // roulette ended the walk
+  summed,    // has made kSumInterval steps more, and its sums are to be taken away before it runs on
   empty      // holds no walk
 };
 
@@ -45,7 +49,7 @@ struct alignas(64) Lanes {
   Row albedo[3];
   Row ratio[3];
   Row lift;
-  // Since the walk was put, or since they were last gathered: single precision holds no long sums.
+  // Since the walk was put, or since they were last taken away.
   Row length;
   Row path;      // weight times distance, and
   Row absorbed;  // weight left behind, of the first channel

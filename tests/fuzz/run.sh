@@ -15,7 +15,7 @@ set -euo pipefail
 readonly root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
 readonly out=$root/build/fuzz/run
 readonly all=(scene ply obj glb stl image)
-readonly longest_input=16384
+readonly longest_input=131072
 readonly most_findings=20
 
 usage() {
