@@ -57,9 +57,11 @@ void Previewer::reload_scene(bool asked) {
     SceneDocument fresh = now.reopened();
     if (!asked && fresh == state_.original) return;
     for (const std::string& edit : options_.edits) fresh.apply(edit);
-    if (fresh == now || (!asked && fresh == state_.original)) return;
-    state_.change(std::move(fresh));
-    state_.settle();
+    if (!asked && fresh == state_.original) return;
+    const bool differs = !(fresh == now);
+    if (differs) state_.change(std::move(fresh));
+    state_.settle();  // what is shown is what the file says, even where it was so already
+    if (!differs) return;
     state_.withdraw(part_error_);
     state_.tell(MessageKind::note, "reloaded the scene");
   } catch (const Error& error) {

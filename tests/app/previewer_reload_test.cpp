@@ -89,6 +89,20 @@ TEST_CASE("a scene that is written again as soon as it was opened is read again"
   CHECK(previewer.comes_to(22));
 }
 
+TEST_CASE("a scene that was edited elsewhere as it was here is read when it goes back to what it was") {
+  const Folder folder;
+  write_settled(folder, "a.toml", scene_text(20));
+  Watched previewer(SceneDocument::open(folder.at("a.toml")));
+  previewer->apply("camera.vertical_fov=30");
+  CHECK(previewer->title().starts_with("*"));
+  folder.write("a.toml", previewer->state().history.now().text());
+  previewer.pass(1);
+  CHECK(previewer.fov() == 30);
+  CHECK_FALSE(previewer->title().starts_with("*"));  // the file says so too
+  folder.write("a.toml", scene_text(20));
+  CHECK(previewer.comes_to(20));
+}
+
 TEST_CASE("what others write over a saved scene is read, and what was saved here is not") {
   const Folder folder;
   write_settled(folder, "a.toml", scene_text(20));
