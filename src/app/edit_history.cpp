@@ -4,10 +4,25 @@
 
 namespace meander {
 
+void EditHistory::push(SceneDocument step) {
+  past_bytes_ += step.bytes();
+  past_.push_back(std::move(step));
+  while (past_.size() > kMostSteps || (past_bytes_ > kMostBytes && past_.size() > 1)) {
+    past_bytes_ -= past_.front().bytes();
+    past_.erase(past_.begin());
+  }
+}
+
+SceneDocument EditHistory::pop() {
+  SceneDocument step = std::move(past_.back());
+  past_.pop_back();
+  past_bytes_ -= step.bytes();
+  return step;
+}
+
 void EditHistory::change(SceneDocument next) {
   if (!gesture_ || !recorded_) {
-    if (past_.size() == kMostSteps) past_.erase(past_.begin());
-    past_.push_back(now_);
+    push(now_);
     recorded_ = gesture_;
     resumable_ = false;
   }
@@ -17,7 +32,7 @@ void EditHistory::change(SceneDocument next) {
 
 void EditHistory::end_gesture() {
   if (recorded_ && now_ == past_.back()) {
-    past_.pop_back();
+    (void)pop();
     recorded_ = false;
   }
   if (gesture_) resumable_ = recorded_;
@@ -29,8 +44,7 @@ bool EditHistory::undo() {
   resumable_ = false;
   if (past_.empty()) return false;
   future_.push_back(std::move(now_));
-  now_ = std::move(past_.back());
-  past_.pop_back();
+  now_ = pop();
   return true;
 }
 
@@ -38,7 +52,7 @@ bool EditHistory::redo() {
   end_gesture();
   resumable_ = false;
   if (future_.empty()) return false;
-  past_.push_back(std::move(now_));
+  push(std::move(now_));
   now_ = std::move(future_.back());
   future_.pop_back();
   return true;

@@ -16,7 +16,8 @@ class EditHistory {
   [[nodiscard]] bool can_undo() const noexcept { return !past_.empty(); }
   [[nodiscard]] bool can_redo() const noexcept { return !future_.empty(); }
 
-  /// Makes `next` the document. Within a gesture all changes together are one step.
+  /// Makes `next` the document. The oldest steps are forgotten: 500 are kept, or as many as 128 MiB hold.
+  /// Within a gesture all changes together are one step.
   void change(SceneDocument next);
   void begin_gesture() noexcept { gesture_ = true; }
   /// A gesture that comes back to where it began leaves no step.
@@ -31,9 +32,14 @@ class EditHistory {
 
  private:
   static constexpr std::size_t kMostSteps = 500;
+  static constexpr std::size_t kMostBytes = std::size_t{128} << 20;  // of what can be taken back
+
+  void push(SceneDocument step);
+  [[nodiscard]] SceneDocument pop();
 
   SceneDocument now_;
   std::vector<SceneDocument> past_;
+  std::size_t past_bytes_ = 0;
   std::vector<SceneDocument> future_;
   bool gesture_ = false;
   bool recorded_ = false;   // this gesture has its step

@@ -89,8 +89,7 @@ FilmPlacement fitted(int width, int height, const Region& into) {
 }
 
 const Program& FilmView::program(const Functions& gl, Shaders& shaders, const Variant& variant) {
-  const auto found = shaders.programs.find(variant);
-  if (found != shaders.programs.end()) return found->second;
+  if (const Program* found = shaders.programs.find(variant)) return *found;
   const auto define = [](const char* name, int value) {
     return std::string("#define ") + name + " " + std::to_string(value) + "\n";
   };
@@ -101,7 +100,8 @@ const Program& FilmView::program(const Functions& gl, Shaders& shaders, const Va
   const std::size_t second_line = fragment.text.find('\n');  // a version comes before all else
   fragment.text.insert(second_line == std::string::npos ? fragment.text.size() : second_line + 1, defines);
   Program made(gl, shaders.vertex, fragment);
-  return shaders.programs.emplace(variant, std::move(made)).first->second;
+  shaders.programs.trim(kPrograms - 1);
+  return shaders.programs.add(variant, std::move(made));
 }
 
 FilmView::Shaders FilmView::load(const Functions& gl) {
@@ -119,7 +119,7 @@ void FilmView::reload() {
   for (int view = 0; view < static_cast<int>(kViewNames.size()); ++view) {
     (void)program(*gl_, fresh, {.view = view});
   }
-  for (const auto& [variant, old] : shaders_.programs) (void)program(*gl_, fresh, variant);
+  for (const auto& [variant, old] : shaders_.programs.entries()) (void)program(*gl_, fresh, variant);
   shaders_ = std::move(fresh);
   shown_.reset();
 }

@@ -1,10 +1,9 @@
 // Draws films: linear radiance in, display-encoded pixels out, in whatever framebuffer is bound.
 #pragma once
 
-#include <compare>
-#include <map>
 #include <optional>
 
+#include "core/recent_values.h"
 #include "display/film_textures.h"
 #include "display/views.h"
 #include "gl/framebuffer.h"
@@ -92,12 +91,14 @@ class FilmView {
     int other_filter = 0;
     int difference = 0;
 
-    auto operator<=>(const Variant&) const = default;
+    bool operator==(const Variant&) const = default;
   };
+  // A software rasteriser holds a megabyte for each: the ways of drawing that were used last are kept.
+  static constexpr std::size_t kPrograms = 16;
   struct Shaders {
     ShaderSource vertex;
     ShaderSource fragment;
-    std::map<Variant, Program> programs;
+    RecentValues<Variant, Program> programs;
   };
   [[nodiscard]] static Shaders load(const Functions& gl);
   [[nodiscard]] static const Program& program(const Functions& gl, Shaders& shaders, const Variant& variant);

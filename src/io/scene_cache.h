@@ -6,9 +6,9 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "core/recent_values.h"
 #include "io/file_stamp.h"
 #include "io/mesh_file.h"
 #include "medium/color_maps.h"
@@ -23,34 +23,6 @@ struct CachedMesh {
   MeshReport report;
   double size = 0;    // the diagonal of its bounds
   double volume = 0;  // enclosed
-};
-
-/// Values by key, the ones used last at the end.
-template <class Key, class Value>
-class RecentValues {
- public:
-  /// Null when there is none; the value counts as used.
-  [[nodiscard]] Value* find(const Key& key) {
-    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-      if (!(entry->first == key)) continue;
-      std::pair<Key, Value> used = std::move(*entry);
-      entries_.erase(entry);
-      entries_.push_back(std::move(used));
-      return &entries_.back().second;
-    }
-    return nullptr;
-  }
-  Value& add(const Key& key, Value value) {
-    entries_.emplace_back(key, std::move(value));
-    return entries_.back().second;
-  }
-  /// Forgets all but the `count` that were used last.
-  void trim(std::size_t count) {
-    if (entries_.size() > count) entries_.erase(entries_.begin(), entries_.end() - count);
-  }
-
- private:
-  std::vector<std::pair<Key, Value>> entries_;
 };
 
 /// The same object for the same file until the file changes, for the same shape always; a file that was

@@ -22,6 +22,18 @@ std::string text_of(const DocumentState& state) {
   return state.comment.empty() || text.empty() ? state.comment + text : state.comment + '\n' + text;
 }
 
+// Of a value of a parsed scene file with its key, as toml++ and the allocator lay them out.
+std::size_t bytes_of(const toml::node& node) {
+  constexpr std::size_t kNode = 150;
+  std::size_t bytes = kNode;
+  if (const toml::table* table = node.as_table())
+    for (const auto& [key, value] : *table) bytes += bytes_of(value);
+  if (const toml::array* array = node.as_array())
+    for (const toml::node& value : *array) bytes += bytes_of(value);
+  if (const auto* text = node.as_string()) bytes += text->get().size();
+  return bytes;
+}
+
 double millimetres_of(const toml::table& document) {
   return document["scene"]["millimetres_per_unit"].value_or(1.0);
 }
@@ -158,6 +170,8 @@ void SceneDocument::set_object_mesh(const std::string& object, const std::string
   write_object_mesh(table, mesh_path, before, mesh->mesh);
   adopt(std::move(next));
 }
+
+std::size_t SceneDocument::bytes() const { return bytes_of(state_->table) + state_->comment.size(); }
 
 MaterialDescription SceneDocument::material(const std::string& name) const {
   DocumentState copy = *state_;

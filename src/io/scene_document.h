@@ -16,11 +16,11 @@ namespace meander {
 struct DocumentState;
 class SceneCache;
 
-/// A value: a copy costs two pointers and is an undo step. Whatever is done to it, a document holds a scene
-/// that could be read; an edit that would not leave one throws Error and leaves the document as it was.
-/// Copies share the files they have read: a mesh, a picture or a shape that did not change is the same object
-/// from one scene() to the next, also between copies, and a file that changed on disk is read anew. Different
-/// copies may be used from different threads.
+/// A value: a copy costs two pointers, an edit a copy of the text's tables (bytes()). Whatever is done to it,
+/// a document holds a scene that could be read; an edit that would not leave one throws Error and leaves the
+/// document as it was. Copies share the files they have read: a mesh, a picture or a shape that did not
+/// change is the same object from one scene() to the next, also between copies, and a file that changed on
+/// disk is read anew. Different copies may be used from different threads.
 class SceneDocument {
  public:
   /// Reads a scene file, or wraps a bare mesh file in the built-in studio (`path` as in load_scene), and
@@ -78,6 +78,9 @@ class SceneDocument {
   /// lengths are held. In place of a mesh it keeps up_axis and rotation, else it stands as its file says.
   /// Error for an unbounded slab.
   void set_object_mesh(const std::string& object, const std::string& path);
+
+  /// About what the document holds in memory besides the files it names, which copies share: bytes.
+  [[nodiscard]] std::size_t bytes() const;
 
   /// Error when there is no material of this name.
   [[nodiscard]] MaterialDescription material(const std::string& name) const;

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <string>
+
 #include "app/preview_desk.h"
 
 using namespace meander;
@@ -61,4 +64,26 @@ TEST_CASE("five hundred steps are kept, the newest") {
   while (history.undo()) ++steps;
   CHECK(steps == 500);
   CHECK(width_of(history) == 10);
+}
+
+TEST_CASE("of a large scene as many steps are kept as 128 MiB hold") {
+  std::string text = "[[material]]\nname = \"wax\"\nalbedo = 0.5\nmean_free_path = 1\n";
+  for (int i = 0; i < 5000; ++i)
+    text += "[[object]]\nname = \"ball" + std::to_string(i) +
+            "\"\nshape = \"sphere\"\nmaterial = \"wax\"\ntransform = { scale = 0.4 }\n";
+  EditHistory history(SceneDocument::from_text(text, "balls.toml"));
+  const double bytes = static_cast<double>(history.now().bytes());
+  const double wanted = std::floor(128 * 1048576.0 / bytes);
+  REQUIRE(wanted > 5);
+  REQUIRE(wanted < 40);
+  for (int width = 1; width <= 50; ++width) history.change(with_width(history.now(), width));
+  for (int round = 0; round < 2; ++round) {  // what was taken back and done again counts once
+    int steps = 0;
+    while (history.undo()) ++steps;
+    CHECK(std::abs(steps - wanted) <= 1);
+    CHECK(width_of(history) == 50 - steps);
+    while (history.redo()) {
+    }
+    CHECK(width_of(history) == 50);
+  }
 }

@@ -100,8 +100,9 @@ void Storm::calm_down() {
   previewer_.carry_out({CommandKind::budget_spp, 8, 0, {}, {}});
   const Timer timer;
   while (timer.seconds() < 300) {
+    const bool rested = previewer_.idle();  // before it looks for the newest picture
     frame();
-    if (previewer_.spp() == 8 && previewer_.idle()) return;
+    if (rested && previewer_.spp() == 8 && previewer_.idle()) return;
     // A picture of more samples is begun anew: a field or slider of the budget may have asked for them, or a
     // pass have been under way.
     if (previewer_.spp() > 8) {

@@ -217,6 +217,29 @@ TEST_CASE("the shaders are kept when their new text does not compile, and the fi
             easel.read(), [](int, int) { return grey(255); }, 0) == 0);
 }
 
+TEST_CASE("of many ways of drawing those used last are kept, and one forgotten draws as before") {
+  Easel easel(8, 8);
+  easel.a.show(gradient(8, 8, 1), 1);
+  const std::array<FilmPlacement, 3> filters{at_origin(8, 8), FilmPlacement{0, 0, 12, 12},
+                                             FilmPlacement{0, 0, 7, 7}};
+  const auto drawn = [&](int view, std::size_t filter, Tone tone) {
+    clear(easel.context.functions(), 0.2f);
+    easel.view.draw(easel.a, {.tone = tone, .view = static_cast<View>(view)}, easel.stage(filters[filter]));
+    return easel.read().rgb;
+  };
+  std::vector<std::vector<std::uint8_t>> first;
+  for (int round = 0; round < 2; ++round) {
+    std::size_t index = 0;
+    for (int view = 0; view < static_cast<int>(kViewNames.size()); ++view) {
+      for (std::size_t filter = 0; filter < filters.size(); ++filter, ++index) {
+        if (round == 0) first.push_back(drawn(view, filter, Tone::filmic));
+        CHECK(drawn(view, filter, Tone::filmic) == first[index]);
+      }
+    }
+  }
+  CHECK(drawn(0, 0, Tone::srgb) != first[0]);
+}
+
 TEST_CASE("a picture is fitted in whole factors where there is room, and shrunk where there is none") {
   CHECK(fitted(960, 540, {10, 40, 960, 540}) == FilmPlacement{10, 40, 960, 540});
   CHECK(fitted(100, 50, {0, 0, 350, 350}) == FilmPlacement{25, 100, 300, 150});

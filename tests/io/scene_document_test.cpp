@@ -29,6 +29,18 @@ TEST_CASE("a copy is an undo step") {
   CHECK(document == SceneDocument::open(kKnot));
 }
 
+TEST_CASE("a document's bytes are about those of its tables") {
+  std::string text = "[[material]]\nname = \"wax\"\nalbedo = 0.5\nmean_free_path = 1\n";
+  const auto bytes = [&] { return SceneDocument::from_text(text, "balls.toml").bytes(); };
+  CHECK(bytes() > 4 * text.size());
+  CHECK(bytes() < 30 * text.size());
+  const std::size_t before = bytes();
+  for (int i = 0; i < 100; ++i) text += "[[object]]\nshape = \"sphere\"\nmaterial = \"wax\"\n";
+  const std::size_t more = bytes() - before;
+  CHECK(more > 100 * 300);
+  CHECK(more < 100 * 1000);
+}
+
 TEST_CASE("an edit that leaves no scene is refused whole") {
   SceneDocument document = SceneDocument::open(kKnot);
   const auto refused = [&](const std::string& edit, const std::string& message) {
