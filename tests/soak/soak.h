@@ -37,7 +37,8 @@ class Soak {
   int pictures = 0;      // that were compared
   int screens = 0;       // likewise
   [[nodiscard]] int grey() const { return storm_.grey; }
-  int told_apart = 0;  // screens of which the comparison could tell those of the time before
+  int compared = 0;    // screens that show the image, and not that of the time before
+  int told_apart = 0;  // of these the ones that could be told from that of the time before
 
  private:
   [[nodiscard]] const PreviewState& state() const { return storm_.previewer().state(); }
@@ -52,6 +53,8 @@ class Soak {
   [[nodiscard]] std::string edited_text();
   void show_live_picture();
   void check_screen(const std::shared_ptr<const LiveFrame>& frame);
+  [[nodiscard]] bool verified();
+  [[nodiscard]] bool check_screens(const std::shared_ptr<const LiveFrame>& frame);
 
   const Folder& folder_;
   std::mt19937 random_;
