@@ -48,6 +48,7 @@ class LaneWalks {
   /// traced, and every kStopInterval steps at least. Errors: whatever the client throws.
   [[nodiscard]] bool run() {
     for (int lane = 0; lane < kLanes; ++lane) {
+      seat_[lane] = lane;
       lanes_.state[lane] = static_cast<std::uint32_t>(LaneState::empty);
       Walker walker;
       Random random({1, 0, 0, 0});
@@ -56,7 +57,8 @@ class LaneWalks {
     give_balls();
     while (in_use_ > 0) {
       if (client_.stop()) return false;
-      advance_lanes(set_, model_, lanes_, kLanes, kLanes - in_use_ + std::min(kRestingLanes, in_use_));
+      close_ranks();
+      advance_lanes(set_, model_, lanes_, ranks_, ranks_ - in_use_ + std::min(kRestingLanes, in_use_));
       find_resting(set_, model_, lanes_, resting_);
       give_balls_where_collided();
       if constexpr (kTogether)
@@ -100,6 +102,24 @@ class LaneWalks {
     gathered_[lane].length = walker.weight.length;
     put_walker(lanes_, lane, walker, random, model_.medium.sigma_t[walker.weight.hero]);
     put_[lane] = {walker.weight.ratio, walker.weight.since, walker.weight.order, walker.weight.hero};
+  }
+
+  // Moves the walks that are left, once no others come, into as few vectors as hold them.
+  void close_ranks() noexcept {
+    constexpr int kRank = 16;  // lanes of the widest vectors
+    if (in_use_ + kRank > ranks_) return;
+    const auto is_empty = [&](int lane) {
+      return lanes_.state[lane] == static_cast<std::uint32_t>(LaneState::empty);
+    };
+    for (int from = in_use_, to = 0; from < ranks_; ++from) {
+      if (is_empty(from)) continue;
+      while (!is_empty(to)) ++to;
+      move_walk(lanes_, from, to);
+      put_[to] = put_[from];
+      gathered_[to] = gathered_[from];
+      std::swap(seat_[to], seat_[from]);
+    }
+    ranks_ = (in_use_ + kRank - 1) / kRank * kRank;
   }
 
   // A new walk, or one that was sent back inside.
@@ -220,14 +240,15 @@ class LaneWalks {
     }
     if constexpr (kTallies) {
       Gathered& sum = gathered_[lane];
-      client_.tally(lane, sum.path + double{lanes_.path[lane]}, sum.absorbed + double{lanes_.absorbed[lane]});
+      client_.tally(seat_[lane], sum.path + double{lanes_.path[lane]},
+                    sum.absorbed + double{lanes_.absorbed[lane]});
       sum.path = sum.absorbed = 0;
       lanes_.path[lane] = lanes_.absorbed[lane] = 0;
     }
     Walker walker = walker_in(lane);
     Random random = random_of(lanes_, lane);
     if (state == LaneState::collided) {
-      client_.collided(lane, clearance(lane), walker, random);
+      client_.collided(seat_[lane], clearance(lane), walker, random);
       go_on(lane, walker, random);
       return;
     }
@@ -240,14 +261,14 @@ class LaneWalks {
     const Crossing& crossing = result.crossing;
     const bool exits = crossing.kind == CrossingKind::exit;
     if constexpr (kTallies)
-      if (exits) client_.tally(lane, double{walker.weight.carried().x * crossing.distance}, 0.0);
+      if (exits) client_.tally(seat_[lane], double{walker.weight.carried().x * crossing.distance}, 0.0);
     walker.weight.pass(model_.medium, crossing.distance);
     if (exits) walker.position = crossing.point;
     result.end = exits ? WalkEnd::exited : WalkEnd::leaked;
   }
 
   void end(int lane, const WalkResult& result, Walker& walker, Random& random) {
-    if (client_.end(lane, result, walker, random)) {
+    if (client_.end(seat_[lane], result, walker, random)) {
       set_out(lane, walker, random);
       return;
     }
@@ -262,6 +283,8 @@ class LaneWalks {
   Lanes lanes_{};
   Put put_[kLanes] = {};
   Gathered gathered_[kLanes];
+  int seat_[kLanes];    // the lane that the client knows a lane's walk by
+  int ranks_ = kLanes;  // lanes beyond are empty for good
   int in_use_ = 0;
   static auto begun_kind() {
     if constexpr (kTogether)

@@ -1,5 +1,7 @@
 #include "walk/lanes.h"
 
+#include <cstring>
+
 namespace meander {
 namespace {
 
@@ -31,6 +33,17 @@ void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& rand
   lanes.steps[lane] = static_cast<std::uint32_t>(walker.steps);
   lanes.due[lane] = static_cast<std::uint32_t>(LaneDue::flight);
   lanes.state[lane] = static_cast<std::uint32_t>(LaneState::running);
+}
+
+void move_walk(Lanes& lanes, int from, int to) noexcept {
+  constexpr std::size_t kRow = sizeof(Lanes::Row);
+  constexpr std::size_t kCell = kRow / kLanes;
+  static_assert(sizeof(Lanes) % kRow == 0 && sizeof(lanes.state) == kRow);
+  char* rows = reinterpret_cast<char*>(&lanes);
+  for (char* row = rows; row != rows + sizeof(Lanes); row += kRow)
+    std::memcpy(row + kCell * static_cast<std::size_t>(to), row + kCell * static_cast<std::size_t>(from),
+                kCell);
+  lanes.state[from] = static_cast<std::uint32_t>(LaneState::empty);
 }
 
 void land(Lanes& lanes, int lane, const Vec3& point, Real distance) noexcept {

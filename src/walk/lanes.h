@@ -68,6 +68,9 @@ struct alignas(64) Lanes {
 /// of its hero channel.
 void put_walker(Lanes& lanes, int lane, const Walker& walker, const Random& random, Real sigma) noexcept;
 
+/// Moves a walk from one lane to another, which is empty; the one it leaves is empty then.
+void move_walk(Lanes& lanes, int from, int to) noexcept;
+
 /// Lets a lane's walk collide at a point after a flight, from which on it runs, without a ball.
 void land(Lanes& lanes, int lane, const Vec3& point, Real distance) noexcept;
 
