@@ -266,6 +266,34 @@ TEST_CASE("Escape closes a list and not the window") {
   CHECK_FALSE(window.interface.wants_keyboard());
 }
 
+TEST_CASE("a message that comes while the help is open lies under it, and its place is the help's") {
+  TestWindow window(1280, 720);
+  window.model.messages.clear();
+  window.state.help = true;
+  for (int i = 0; i < 3; ++i) window.frame();
+  window.model.messages = {{91, MessageKind::note, "something happened", {}, 1}};
+  for (int i = 0; i < 3; ++i) window.frame();
+  const ImGuiWindow* toast = ImGui::FindWindowByName("message 91");
+  const ImGuiWindow* help = ImGui::FindWindowByName("help");
+  REQUIRE(toast);
+  REQUIRE(help);
+  const auto& windows = ImGui::GetCurrentContext()->Windows;
+  CHECK(windows.back() == help);
+  const ImRect shared = [&] {
+    ImRect both = toast->Rect();
+    both.ClipWith(help->Rect());
+    return both;
+  }();
+  REQUIRE(shared.GetWidth() > 0);
+  REQUIRE(shared.GetHeight() > 0);
+  window.frame({move_to(shared.GetCenter().x, shared.GetCenter().y)});
+  CHECK(ImGui::GetCurrentContext()->HoveredWindow == help);
+  window.state.help = false;
+  for (int i = 0; i < 2; ++i) window.frame();
+  window.frame({move_to(shared.GetCenter().x, shared.GetCenter().y)});
+  CHECK(ImGui::GetCurrentContext()->HoveredWindow == toast);
+}
+
 TEST_CASE("two interfaces live side by side") {
   TestWindow first(1280, 720);
   TestWindow second(960, 540);
