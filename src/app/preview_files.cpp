@@ -141,6 +141,7 @@ void save_scene_as(PreviewTools& tools, const std::string& path) {
     tools.state.change(std::move(moved));
   }
   tools.state.settle();
+  if (path == tools.state.asked.path) tools.state.asked = {};
   tools.state.tell(MessageKind::note, "saved " + path);
 }
 

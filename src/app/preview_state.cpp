@@ -46,12 +46,13 @@ bool shows_live(const PreviewLook& look, double across) {
 
 PreviewState::PreviewState(SceneDocument document) : history(document), original(std::move(document)) {
   resolve();
-  original_scene = scene;
+  settle();
 }
 
 void PreviewState::settle() {
   original = history.now();
   original_scene = scene;
+  settled.insert_or_assign(original.path(), original);
 }
 
 void PreviewState::change(SceneDocument next) {
@@ -60,7 +61,13 @@ void PreviewState::change(SceneDocument next) {
   take(*this, std::move(file));
 }
 
-void PreviewState::resolve() { take(*this, history.now().scene()); }
+void PreviewState::resolve() {
+  take(*this, history.now().scene());
+  const auto before = settled.find(history.now().path());
+  if (before == settled.end() || before->first == original.path()) return;
+  original_scene = std::make_shared<const Scene>(before->second.scene().scene);
+  original = before->second;
+}
 
 FilmSize scaled_film(const FilmSize& film, int percent) {
   const auto scaled = [&](int side) { return std::max(1, (side * percent + 50) / 100); };

@@ -1,6 +1,7 @@
 // What the previewer holds that is no picture: the scene under edit and how it is looked at.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,7 +49,7 @@ struct PreviewState {
   explicit PreviewState(SceneDocument document);
 
   EditHistory history;
-  SceneDocument original;  // as it was opened, or last saved
+  SceneDocument original;  // as the file of history.now() was opened, or last saved
   std::shared_ptr<const Scene> original_scene;
   std::shared_ptr<const Scene> scene;  // of history.now(), at 100 %
   std::vector<std::string> warnings;   // of its reading
@@ -59,6 +60,13 @@ struct PreviewState {
   std::vector<Message> messages;
   std::uint64_t next_message = 1;
   bool quit = false;
+  std::map<std::string, SceneDocument> settled;  // by path, see settle
+  /// Edits of the command line, made again whenever the file that they were given for is read again, until it
+  /// is saved with them in it.
+  struct {
+    std::string path;
+    std::vector<std::string> edits;
+  } asked;
 
   /// Errors stay until they are dismissed, the newest kMostMessages of them all.
   void tell(MessageKind kind, std::string text, std::vector<std::string> details = {}) {
@@ -73,7 +81,8 @@ struct PreviewState {
   void change(SceneDocument next);
   /// Takes history.now() for what is on disk: after opening and saving.
   void settle();
-  /// Resolves history.now() anew: after undo and redo. Selects a material that is there.
+  /// Resolves history.now() anew: after undo and redo, which may lead to another file, and when files have
+  /// changed. Selects a material that is there.
   void resolve();
 };
 

@@ -60,6 +60,7 @@ Previewer::Previewer(const Functions& gl, SceneDocument document, PreviewOptions
       pictures_(gl) {
   state_.settings = options_.settings;
   state_.look = options_.look;
+  state_.asked = {state_.history.now().path(), options_.edits};
   ui_.hidden = options_.hidden;
   session_ = std::make_unique<Session>(threads_of(state_.settings));
   clipboard_ = {[] { return std::string(); }, [](const std::string&) {}};

@@ -30,7 +30,7 @@ struct PreviewOptions {
   bool hidden = false;                  // no interface, the picture alone
   std::optional<PanelName> only_panel;  // nothing but this panel
   bool watches_files = true;
-  std::vector<std::string> edits;  // of the command line: made again when the scene file is read again
+  std::vector<std::string> edits;  // of the command line, see PreviewState::asked
 };
 
 /// What a frame is drawn into: the bound framebuffer, `pixels_wide` x `pixels_high` pixels, of `scale` pixels

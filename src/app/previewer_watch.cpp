@@ -56,8 +56,11 @@ void Previewer::reload_scene(bool asked) {
   try {
     SceneDocument fresh = now.reopened();
     if (!asked && fresh == state_.original) return;
-    for (const std::string& edit : options_.edits) fresh.apply(edit);
-    if (!asked && fresh == state_.original) return;
+    if (!(fresh == now)) {
+      if (now.path() == state_.asked.path)
+        for (const std::string& edit : state_.asked.edits) fresh.apply(edit);
+      if (!asked && fresh == state_.original) return;
+    }
     const bool differs = !(fresh == now);
     if (differs) state_.change(std::move(fresh));
     state_.settle();  // what is shown is what the file says, even where it was so already

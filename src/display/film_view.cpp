@@ -119,6 +119,8 @@ void FilmView::reload() {
   for (int view = 0; view < static_cast<int>(kViewNames.size()); ++view) {
     (void)program(*gl_, fresh, {.view = view});
   }
+  (void)program(*gl_, fresh, {.tone = 1});  // with these each line of the shader is compiled
+  (void)program(*gl_, fresh, {.difference = 1});
   for (const auto& [variant, old] : shaders_.programs.entries()) (void)program(*gl_, fresh, variant);
   shaders_ = std::move(fresh);
   shown_.reset();

@@ -39,7 +39,9 @@ void help_overlay(const Ui& ui, const Area& window) {
   const Area area{std::floor(0.5f * (window.width - width)), std::floor(0.5f * (window.height - height)),
                   width, height};
   begin_dialog("help", area, {0, 0});
-  ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());  // over messages that come later, too
+  // Over messages that come later, too, but not over a list or menu that is opened beside it.
+  if (ImGui::GetCurrentContext()->OpenPopupStack.Size == 0)
+    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
   draw_text(strong_font(), {area.x + 16, area.y + 13}, kTextColor, "Keys and pointer");
   ImGui::SetCursorScreenPos({area.x + width - 34, area.y + 8});
   if (icon_button("close", Icon::close, "Close (Esc)")) ui.state.help = false;

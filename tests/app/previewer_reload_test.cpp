@@ -21,8 +21,8 @@ const std::string kTetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf
 // A previewer whose time goes on only as it is watched.
 class Watched {
  public:
-  explicit Watched(SceneDocument document)
-      : previewer_(context_.functions(), std::move(document), options(), 1) {}
+  explicit Watched(SceneDocument document, std::vector<std::string> edits = {})
+      : previewer_(context_.functions(), std::move(document), options(std::move(edits)), 1) {}
 
   [[nodiscard]] int fov() const {
     return static_cast<int>(previewer_.state().scene->camera.vertical_fov + 0.5);
@@ -52,8 +52,9 @@ class Watched {
   Previewer* operator->() { return &previewer_; }
 
  private:
-  static PreviewOptions options() {
+  static PreviewOptions options(std::vector<std::string> edits) {
     PreviewOptions options;
+    options.edits = std::move(edits);
     options.settings.budget.spp = 1;
     return options;
   }
@@ -101,6 +102,69 @@ TEST_CASE("a scene that was edited elsewhere as it was here is read when it goes
   CHECK_FALSE(previewer->title().starts_with("*"));  // the file says so too
   folder.write("a.toml", scene_text(20));
   CHECK(previewer.comes_to(20));
+}
+
+TEST_CASE(
+    "edits stay when the file they were made to is written with its same words, also after undo leads back") {
+  const Folder folder;
+  write_settled(folder, "a.toml", scene_text(20));
+  write_settled(folder, "b.toml", scene_text(30));
+  Watched previewer(SceneDocument::open(folder.at("a.toml")));
+  previewer->apply("camera.vertical_fov=25");
+  previewer.drop(folder.at("b.toml"));
+  CHECK(previewer.fov() == 30);
+  CHECK_FALSE(previewer->title().starts_with("*"));
+  previewer->carry_out({CommandKind::undo, 0, 0, {}, {}});
+  CHECK(previewer.fov() == 25);
+  CHECK(previewer->title().starts_with("*a.toml"));
+  CHECK(previewer->state().original_scene->camera.vertical_fov == 20);
+  folder.write("a.toml", scene_text(20));
+  previewer.pass(1);
+  CHECK(previewer.fov() == 25);
+  folder.write("a.toml", scene_text(21));
+  CHECK(previewer.comes_to(21));
+  previewer->carry_out({CommandKind::undo, 0, 0, {}, {}});
+  previewer->carry_out({CommandKind::undo, 0, 0, {}, {}});
+  CHECK_FALSE(previewer.fov() == 21);
+}
+
+TEST_CASE("edits of the command line are made again to their own file, and not once they are saved in it") {
+  const std::vector<std::string> edits{"camera.vertical_fov=30"};
+  const Folder folder;
+  write_settled(folder, "a.toml", scene_text(20));
+  write_settled(folder, "b.toml", scene_text(40));
+  const std::string path = folder.at("a.toml");
+  Watched previewer(SceneDocument::open(path, edits), edits);
+  const auto width = [&] { return previewer->state().scene->film.width; };
+  const auto widened = [](int fov, int film) {
+    std::string text = scene_text(fov);
+    text.replace(text.find("width = 8"), 9, "width = " + std::to_string(film));
+    return text;
+  };
+  folder.write("a.toml", widened(20, 9));
+  previewer.pass(1);
+  CHECK(width() == 9);
+  CHECK(previewer.fov() == 30);
+  // Another program writes what is shown.
+  previewer->apply("camera.vertical_fov=25");
+  folder.write("a.toml", previewer->state().history.now().text());
+  previewer.pass(1);
+  CHECK(previewer.fov() == 25);
+  CHECK_FALSE(previewer->title().starts_with("*"));
+  // Not to another file.
+  previewer.drop(folder.at("b.toml"));
+  folder.write("b.toml", scene_text(41));
+  CHECK(previewer.comes_to(41));
+  previewer->carry_out({CommandKind::undo, 0, 0, {}, {}});
+  previewer->carry_out({CommandKind::undo, 0, 0, {}, {}});
+  CHECK(previewer.fov() == 25);
+  // Saved, they are the file's.
+  previewer->apply("camera.vertical_fov=26");
+  previewer->carry_out({CommandKind::save, 0, 0, {}, {}});
+  folder.write("a.toml", widened(26, 10));
+  previewer.pass(1);
+  CHECK(width() == 10);
+  CHECK(previewer.fov() == 26);
 }
 
 TEST_CASE("what others write over a saved scene is read, and what was saved here is not") {

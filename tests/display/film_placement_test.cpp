@@ -219,25 +219,33 @@ TEST_CASE("the shaders are kept when their new text does not compile, and the fi
 
 TEST_CASE("of many ways of drawing those used last are kept, and one forgotten draws as before") {
   Easel easel(8, 8);
-  easel.a.show(gradient(8, 8, 1), 1);
+  const Image colors = gradient(8, 8, 1);
+  Image four(8, 8, 4);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      for (int c = 0; c < 4; ++c) four.at(x, y)[c] = colors.at(x, y)[c % 3];
+  const FilmPlanes planes{four, four, four};
   const std::array<FilmPlacement, 3> filters{at_origin(8, 8), FilmPlacement{0, 0, 12, 12},
                                              FilmPlacement{0, 0, 7, 7}};
-  const auto drawn = [&](int view, std::size_t filter, Tone tone) {
-    clear(easel.context.functions(), 0.2f);
-    easel.view.draw(easel.a, {.tone = tone, .view = static_cast<View>(view)}, easel.stage(filters[filter]));
-    return easel.read().rgb;
-  };
   std::vector<std::vector<std::uint8_t>> first;
-  for (int round = 0; round < 2; ++round) {
-    std::size_t index = 0;
-    for (int view = 0; view < static_cast<int>(kViewNames.size()); ++view) {
-      for (std::size_t filter = 0; filter < filters.size(); ++filter, ++index) {
-        if (round == 0) first.push_back(drawn(view, filter, Tone::filmic));
-        CHECK(drawn(view, filter, Tone::filmic) == first[index]);
+  const auto draw_all = [&](const auto& use) {
+    for (const Tone tone : {Tone::srgb, Tone::filmic}) {
+      for (std::size_t view = 0; view < kViewNames.size(); ++view) {
+        for (const FilmPlacement& placement : filters) {
+          clear(easel.context.functions(), 0.2f);
+          easel.a.show(planes, 1, static_cast<View>(view));
+          easel.view.draw(easel.a, {.tone = tone, .view = static_cast<View>(view)}, easel.stage(placement));
+          use(easel.read().rgb);
+        }
       }
     }
-  }
-  CHECK(drawn(0, 0, Tone::srgb) != first[0]);
+  };
+  draw_all([&](const auto& rgb) { first.push_back(rgb); });
+  REQUIRE(first.size() == 48);
+  REQUIRE(first[0] != first[24]);  // the curves
+  for (int view = 1; view < 4; ++view) REQUIRE(first[3 * view] != first[0]);
+  std::size_t index = 0;
+  draw_all([&](const auto& rgb) { CHECK(rgb == first[index++]); });
 }
 
 TEST_CASE("a picture is fitted in whole factors where there is room, and shrunk where there is none") {

@@ -4,8 +4,9 @@
 // each run) to within 4 sqrt(2 / N) of 1.
 //
 //   reference_rows                      every seventh row at a relative standard error of 1 %, scalar 2 %
-//   reference_rows --all                every row at 0.2 %; z_scores.csv is written as rows end
-//   reference_rows --all --resume       keeps the rows that the file already has
+//   reference_rows --all                every row at 0.2 %; rows go into z_scores.csv.part as they end, which
+//                                       becomes z_scores.csv with the last
+//   reference_rows --all --resume       keeps the rows that such a part already has
 //   reference_rows --rows TEXT          only the rows whose name contains TEXT, at 0.2 %; no file
 //   ... --threads N                     all threads by default
 //
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
@@ -54,6 +56,7 @@ struct Score {
 };
 
 const std::string kFile = std::string(MEANDER_SOURCE_DIR) + "/tests/reference/z_scores.csv";
+const std::string kPart = kFile + ".part";
 constexpr std::uint64_t kPilot = 20000;
 constexpr int kFewRuns = 20;
 constexpr std::size_t kMostRows = 1000;  // seeds of scalar walks begin beyond
@@ -141,7 +144,7 @@ void write(std::ofstream& file, const Score& s) {
 
 std::vector<Score> read_scores() {
   std::vector<Score> scores;
-  const CsvTable t = read_csv(kFile);
+  const CsvTable t = read_csv(kPart);
   for (std::size_t i = 0; i < t.rows.size(); ++i)
     scores.push_back({t.text(i, "row"), t.text(i, "walk"), t.text(i, "quantity"), t.number(i, "exact"),
                       t.number(i, "measured"), t.number(i, "standard_error"), t.number(i, "z"),
@@ -208,7 +211,7 @@ bool run(const Options& options) {
   if (options.resume) scores = read_scores();
   const bool keep = options.all && options.rows.empty();
   std::ofstream file;
-  if (keep) file.open(kFile, options.resume ? std::ios::app : std::ios::trunc);
+  if (keep) file.open(kPart, options.resume ? std::ios::app : std::ios::trunc);
   if (keep && !options.resume)
     file << "row,walk,quantity,exact,measured,standard_error,relative_standard_error,z,walks,first,total\n";
   const Timer timer;
@@ -232,6 +235,11 @@ bool run(const Options& options) {
     std::fflush(stdout);
   }
   if (scores.empty()) throw std::runtime_error("no row is called " + options.rows);
+  if (keep) {
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + kPart);
+    std::filesystem::rename(kPart, kFile);
+  }
   return report(scores, options);
 }
 

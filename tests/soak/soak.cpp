@@ -206,7 +206,7 @@ bool Soak::check_screens(const std::shared_ptr<const LiveFrame>& frame) {
   const bool stays = storm_.previewer().pictures().newest() == frame;
   if (stays) check_screen(frame);
   storm_.carry_out({CommandKind::view, static_cast<std::int64_t>(view), 0, {}, {}});
-  before_ = frame;
+  if (stays) before_ = frame;
   return stays;
 }
 

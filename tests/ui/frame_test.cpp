@@ -294,6 +294,24 @@ TEST_CASE("a message that comes while the help is open lies under it, and its pl
   CHECK(ImGui::GetCurrentContext()->HoveredWindow == toast);
 }
 
+TEST_CASE("a list that is opened while the help is open lies over it") {
+  TestWindow window(960, 540);
+  window.model.messages.clear();
+  window.state.help = true;
+  for (int i = 0; i < 3; ++i) window.frame();
+  click(window, find_control(window, window.layout().toolbar, window_id("toolbar", "##view")));
+  for (int i = 0; i < 3; ++i) window.frame();
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  REQUIRE(context.OpenPopupStack.Size == 1);
+  const ImGuiWindow* list = context.OpenPopupStack[0].Window;
+  REQUIRE(list);
+  ImRect shared = list->Rect();
+  shared.ClipWith(ImGui::FindWindowByName("help")->Rect());
+  REQUIRE(shared.GetHeight() > 0);
+  window.frame({move_to(shared.GetCenter().x, shared.GetCenter().y)});
+  CHECK(context.HoveredWindow == list);
+}
+
 TEST_CASE("two interfaces live side by side") {
   TestWindow first(1280, 720);
   TestWindow second(960, 540);

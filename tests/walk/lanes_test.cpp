@@ -187,18 +187,25 @@ TEST_CASE("where nothing is absorbed the weight that leaves is 1 to the last wal
 
 TEST_CASE("a walk is the same whatever lane it is in and whatever walks beside it") {
   for (const InstructionSet set : instruction_sets()) {
-    const LaneModel model{media()[3], sphere_region(2), false};
-    const Start start = hero_of(enter(2, 0));
-    const auto many = walk_lanes(set, SphereWorld{2}, model, start, 3000);
-    const auto few = walk_lanes(set, SphereWorld{2}, model, start, 37);
-    for (std::size_t i = 0; i < few.size(); ++i) {
-      CAPTURE(i);
-      CHECK(few[i].first.end == many[i].first.end);
-      CHECK(few[i].second.position == many[i].second.position);
-      CHECK(few[i].second.direction == many[i].second.direction);
-      CHECK(few[i].second.weight.albedo == many[i].second.weight.albedo);
-      CHECK(few[i].second.weight.ratio == many[i].second.weight.ratio);
-      CHECK(few[i].second.steps == many[i].second.steps);
+    for (const bool rests : {false, true}) {
+      const LaneModel model{media()[3], sphere_region(2), rests};
+      const Start start = hero_of(enter(2, 0));
+      const auto many = walk_lanes(set, SphereWorld{2}, model, start, 3000);
+      for (const std::uint32_t count : {37u, 131u, 300u}) {  // the last ones of 131 and 300 are moved
+        const auto few = walk_lanes(set, SphereWorld{2}, model, start, count);
+        for (std::size_t i = 0; i < few.size(); ++i) {
+          CAPTURE(i);
+          CHECK(few[i].first.end == many[i].first.end);
+          CHECK(few[i].second.position == many[i].second.position);
+          CHECK(few[i].second.direction == many[i].second.direction);
+          CHECK(few[i].second.weight.throughput == many[i].second.weight.throughput);
+          CHECK(few[i].second.weight.albedo == many[i].second.weight.albedo);
+          CHECK(few[i].second.weight.ratio == many[i].second.weight.ratio);
+          CHECK(few[i].second.weight.hero == many[i].second.weight.hero);
+          CHECK(few[i].second.weight.length == many[i].second.weight.length);
+          CHECK(few[i].second.steps == many[i].second.steps);
+        }
+      }
     }
   }
 }
