@@ -101,4 +101,6 @@ mutant pixels_without_corners picture_outline_lanes render/empty_pixels.cpp \
 mutant light_found_not_shared picture_lit walk/passage.inl \
   'average(passed) * pdf + average(weight.ratio) * sampled' 'average(passed) * pdf'
 mutant no_light_at_collisions picture_fog_lanes walk/lane_walks.h \
-  'client_.collided(lane, clearance(lane), walker, random);' ''
+  'client_.collided(seat_[lane], clearance(lane), walker, random);' ''
+mutant lane_seats_mixed company_lanes walk/lane_walks.h 'std::swap(seat_[to], seat_[from]);' ''
+mutant lane_put_left_behind company_lanes walk/lane_walks.h 'put_[to] = put_[from];' ''

@@ -244,6 +244,59 @@ void chromatic_bound(Verdict& v, WalkCode code) {
   v.require("largest weight", ChromaticSlab(code).largest_weight, 0, 3.00001);
 }
 
+// Chromatic walks in a slab, known by their numbers in the order in which they begin.
+struct NumberedWalks {
+  std::vector<Walker> ended;
+  std::uint32_t begun;
+  std::uint32_t number[kLanes] = {};
+
+  // Those up to `count` from `first` on, which walk together.
+  NumberedWalks(std::uint32_t first, std::uint32_t count) : ended(count), begun(first) {
+    LaneModel model{{Rgb(Real(0.1), 1, 10), Rgb(Real(0.1), Real(0.5), Real(0.99)), 0}, {}, false};
+    for (int axis = 0; axis < 3; ++axis) {
+      model.region.low[axis] = axis == 2 ? -1.0f : -1e6f;
+      model.region.high[axis] = axis == 2 ? 0.0f : 1e6f;
+    }
+    const SlabWorld world{1};
+    (void)LaneWalks(instruction_sets().back(), world, model, *this).run();
+  }
+
+  [[nodiscard]] bool start(int lane, Walker& walker, Random& random) {
+    if (begun == ended.size()) return false;
+    number[lane] = begun;
+    random = stream(3, 0, begun++);
+    walker = {};
+    walker.direction = {0, 0, -1};
+    walker.weight.hero = std::min(static_cast<int>(random.next() * 3), 2);
+    return true;
+  }
+  [[nodiscard]] bool end(int lane, const WalkResult&, Walker& walker, Random& random) {
+    ended[number[lane]] = walker;
+    return start(lane, walker, random);
+  }
+  void collided(int, Real, const Walker&, const Random&) const noexcept {}
+  [[nodiscard]] bool stop() const noexcept { return false; }
+};
+
+// A walk ends alike beside many others and beside few.
+void company(Verdict& v, WalkCode code) {
+  if (code == WalkCode::scalar) return;
+  constexpr std::uint32_t kMany = 20000;
+  constexpr std::uint32_t kFew = 60;
+  const NumberedWalks many(0, kMany);
+  int different = 0;
+  for (std::uint32_t first = 0; first + kFew <= kMany; first += kFew) {
+    const NumberedWalks few(first, first + kFew);
+    for (std::uint32_t i = first; i < first + kFew; ++i) {
+      const PathWeight& a = many.ended[i].weight;
+      const PathWeight& b = few.ended[i].weight;
+      different += a.hero != b.hero || a.ratio != b.ratio || a.throughput != b.throughput ||
+                   a.length != b.length || many.ended[i].position != few.ended[i].position;
+    }
+  }
+  v.require("walks that differ", different, 0, 0);
+}
+
 constexpr Oracle kOracles[]{{"slab_forward", slab_forward},
                             {"slab_oblique", slab_oblique},
                             {"slab_unscattered", slab_unscattered},
@@ -258,7 +311,8 @@ constexpr Oracle kOracles[]{{"slab_forward", slab_forward},
                             {"energy", energy, false},
                             {"infinite_moments", infinite_moments},
                             {"chromatic_slab", chromatic_slab},
-                            {"chromatic_bound", chromatic_bound}};
+                            {"chromatic_bound", chromatic_bound},
+                            {"company", company}};
 
 }  // namespace
 
