@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace meander {
 namespace {
 
@@ -65,8 +67,12 @@ void PreviewState::resolve() {
   take(*this, history.now().scene());
   const auto before = settled.find(history.now().path());
   if (before == settled.end() || before->first == original.path()) return;
-  original_scene = std::make_shared<const Scene>(before->second.scene().scene);
   original = before->second;
+  try {
+    original_scene = std::make_shared<const Scene>(original.scene().scene);
+  } catch (const Error&) {
+    original_scene = scene;  // a file that it names is gone
+  }
 }
 
 FilmSize scaled_film(const FilmSize& film, int percent) {

@@ -60,7 +60,7 @@ struct PreviewState {
   std::vector<Message> messages;
   std::uint64_t next_message = 1;
   bool quit = false;
-  std::map<std::string, SceneDocument> settled;  // by path, see settle
+  std::map<std::string, SceneDocument> settled;  // by path: what each file said last, see settle
   /// Edits of the command line, made again whenever the file that they were given for is read again, until it
   /// is saved with them in it.
   struct {
@@ -79,7 +79,7 @@ struct PreviewState {
   }
   /// Makes this document the one under edit, as a step of undo. Error when it does not read any more.
   void change(SceneDocument next);
-  /// Takes history.now() for what is on disk: after opening and saving.
+  /// Takes history.now() for what its file says: after opening, saving and reading again.
   void settle();
   /// Resolves history.now() anew: after undo and redo, which may lead to another file, and when files have
   /// changed. Selects a material that is there.

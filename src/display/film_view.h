@@ -93,7 +93,7 @@ class FilmView {
 
     bool operator==(const Variant&) const = default;
   };
-  // A software rasteriser holds a megabyte for each: the ways of drawing that were used last are kept.
+  // A software rasteriser holds a megabyte and more for each: those that were used last are kept.
   static constexpr std::size_t kPrograms = 16;
   struct Shaders {
     ShaderSource vertex;

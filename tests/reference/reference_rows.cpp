@@ -212,6 +212,7 @@ bool run(const Options& options) {
   const bool keep = options.all && options.rows.empty();
   std::ofstream file;
   if (keep) file.open(kPart, options.resume ? std::ios::app : std::ios::trunc);
+  if (keep && !file) throw std::runtime_error("cannot write " + kPart);
   if (keep && !options.resume)
     file << "row,walk,quantity,exact,measured,standard_error,relative_standard_error,z,walks,first,total\n";
   const Timer timer;
